@@ -22,7 +22,7 @@ def knows(meant: Mapping[str, str]) -> Callable[[Callable[P, T]], Callable[P, T]
     Parameters
     ----------
     meant : mapping of str to str
-        What to write instead of an argument that people expect; of others the nearest that there are is told.
+        What to write instead of an argument that users may expect; for others similar ones are suggested.
     """
 
     def decorated(function: Callable[P, T]) -> Callable[P, T]:

@@ -1,6 +1,6 @@
-"""The way of the bindings to numpy's arrays, found as the package is imported.
+"""The bindings' access to numpy's arrays, set up when the package is imported.
 
-They look for it at their first array, and Ctrl-C in the middle of that would be a panic of theirs.
+They would set it up at their first array, where Ctrl-C would make them panic.
 """
 
 from __future__ import annotations

@@ -20,7 +20,8 @@ def later(package: str, homes: Mapping[str, tuple[str, ...]]) -> Callable[[str],
     package : str
         Its name.
     homes : mapping of str to tuple of str
-        Of each module that comes later what the package has of it, besides the module itself.
+        For each module that is imported later, the names that the package takes from it, besides the module
+        itself.
     """
     home = {name: module for module, names in homes.items() for name in names}
 

@@ -6,14 +6,14 @@ import sys
 from pathlib import Path
 
 _STATM = Path("/proc/self/statm")
-"""Where Linux tells how much of the address space is used; containers may hide it."""
+"""File in which Linux reports how much of the address space is used; containers may hide it."""
 
 _UNIT = 1 if sys.platform == "darwin" else 1024
 """In which getrusage counts memory [bytes]."""
 
 
 def used() -> int | None:
-    """Return how much of it is used, held memory or not [bytes]; None where the system does not tell."""
+    """Return how much address space is used, held or not [bytes]; None where the system does not report it."""
     try:
         pages = int(_STATM.read_text().split()[0])
     except OSError:
@@ -36,7 +36,7 @@ def peak() -> int | None:
 
 
 def left() -> float:
-    """Return what the limit of the process leaves [bytes]; infinity where there is none, or where none is told."""
+    """Return what the limit of the process leaves [bytes]; infinity where there is none, or none is reported."""
     now = used()
     if now is None:
         return float("inf")

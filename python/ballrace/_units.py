@@ -1,4 +1,4 @@
-"""Accelerations and velocities in the units that vibration is told in."""
+"""Accelerations and velocities in the common units of vibration."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def in_unit(
     if (unit in ACCELERATIONS) == (wanted in ACCELERATIONS):
         return x * scale
     if unit in VELOCITIES:
-        raise SceneError("unit", repr(wanted), f"a velocity, which a record in {unit} is")
+        raise SceneError("unit", repr(wanted), f"a velocity, as the record in {unit} is one")
     return _integrated(x, fs, band) * scale
 
 

@@ -1,8 +1,8 @@
-"""One signal and what is known of it, whoever recorded it.
+"""One signal and what is known of it, from a run, a measuring chain or a file.
 
 A run (:class:`ballrace.Signals`), what a chain measured (:class:`ballrace.measuring.Measurement`) and a file
 (:class:`ballrace.Recording`) hold signals under different names. Each gives one of them as a :class:`Channel`, and
-what looks at signals (:mod:`ballrace.spectra`, :mod:`ballrace.plot`, :func:`ballrace.diagnose`) takes any of
+the functions of signals (:mod:`ballrace.spectra`, :mod:`ballrace.plot`, :func:`ballrace.diagnose`) take any of
 them, a channel, or an array with its sampling rate.
 
 >>> import ballrace as br, numpy as np
@@ -54,7 +54,7 @@ class Channel:
     scene : Scene or None
         What was simulated; None of what was measured.
     warnings : tuple of str
-        What the record was warned of: unsound accelerations, clipped samples.
+        Warnings about the record: uncertain accelerations, clipped samples.
     """
 
     x: NDArray[np.float64]
@@ -82,7 +82,7 @@ class Channel:
         return self.start + np.arange(self.x.size) / self.fs
 
     def channel(self, name: str | None = None) -> Channel:
-        """Return the channel itself, so that it stands wherever a record does.
+        """Return the channel itself, so that it can take the place of a record.
 
         Raises
         ------
@@ -136,23 +136,24 @@ class Recorded(Protocol):
 def channel_of(
     of: Recorded | ArrayLike, fs: float | None = None, column: str | None = None, *, name: str = "x"
 ) -> Channel:
-    """Return the signal that is meant.
+    """Return a signal as a channel.
 
     Parameters
     ----------
     of : Signals, Measurement, Recording, Channel or array_like
-        Where it stands.
+        A record, a channel or an array.
     fs : float, optional
         Sampling rate of an array [Hz].
     column : str, optional
         Which column of a record.
     name : str
-        What ``of`` is called where it is an argument.
+        Name of the argument, for messages.
 
     Raises
     ------
     SceneError
-        The sampling rate of an array is missing, that of a record is another, or it is no row of numbers.
+        The sampling rate of an array is missing, ``fs`` differs from that of the record, or ``of`` is not a
+        one-dimensional array of numbers.
     KeyError
         There is no such column.
     """

@@ -51,7 +51,7 @@ def spall(
     row: int = 0,
     ball: int | None = None,
 ) -> Defect:
-    """Return a spall: a rectangle of the surface is gone.
+    """Return a spall: a rectangle in which the surface is absent.
 
     Parameters
     ----------
@@ -62,11 +62,11 @@ def spall(
     depth_mm : float, optional
         Depth of its floor [mm]; by default so deep that no ball meets it. A shallow floor is a bed of ten bumps.
     edge_radius_mm : float, optional
-        How far its edges are rolled over: radius of the fault circles there [mm]; by default 0.3 of rolled edges.
+        Radius of its rolled edges, that of the fault circles [mm]; by default 0.3. Left out with steep walls.
     walls : {"rolled", "steep"}
-        Edges that are rolled over, or steep walls, which set the radius and widen the spall by half of its
-        contact's width, so that contacts unload as a solver by boundary elements has them do: see
-        :class:`ballrace.scene.Defect`. Steep ones want a spall of 1.25 contacts and more.
+        Edges that are rolled over, or steep walls, which set the radius and move the fault circles apart so that
+        contacts unload as in boundary-element solutions: see :class:`ballrace.scene.Defect`. Steep walls need a
+        spall at least 1.25 contacts wide.
     angle : float
         Angular place on the body, counter-clockwise from its own x axis [rad]; by default where a load along -y
         presses on the outer race.
@@ -125,7 +125,9 @@ def dent(
     row: int = 0,
     ball: int | None = None,
 ) -> Defect:
-    """Return a round pit, as an electric spark or a hard particle leaves; parameters as of :func:`spall`.
+    """Return a dent: a round defect with rolled edges, as a hard particle leaves.
+
+    For a hole smaller than its contact see :func:`pit`.
 
     Parameters
     ----------
@@ -168,7 +170,7 @@ def line(
     Parameters
     ----------
     on, width_mm, length_mm, edge_radius_mm, angle, axial_offset, row, ball
-        As for :func:`spall`, which it is but for its sizes.
+        As for :func:`spall`; only the default sizes differ.
 
     Raises
     ------
@@ -196,7 +198,7 @@ def cap(
     row: int = 0,
     ball: int = 0,
 ) -> Defect:
-    """Return a cap of a ball: a circle on its surface, within which that is gone however the ball turns.
+    """Return a cap of a ball: a circle on its surface, within which the surface is absent, fixed in the ball.
 
     Parameters
     ----------
@@ -235,9 +237,9 @@ def pit(
 ) -> Defect:
     """Return a pit smaller than its contact, as electric discharge or a seeded fault of a data set.
 
-    The surfaces bulge into it and share its load with what is around it. It is a hole with sharp edges and so deep
-    that nothing meets its floor. What is too large for its contact, longer than nine tenths of it or so, is a
-    :func:`spall`, and refused here when the scene is used.
+    The surfaces bulge into it, and the contact loses part of its load. It is a hole with sharp edges, so deep
+    that nothing meets its floor. A pit longer than some nine tenths of its contact is refused when the scene is
+    used: it is a :func:`spall`.
 
     Parameters
     ----------

@@ -96,10 +96,7 @@ def _changes(path: str, function: Ramp | Sine | Table | Spline) -> bool:
     return False
 
 
-_PERIODIC = (
-    "a number, a sine or a table: a life counts what comes again and again, and this does not; "
-    "give the load that lasts as a number"
-)
+_PERIODIC = "a number, a sine or a table, since a life needs loads that repeat; give a lasting load as a number"
 
 
 def _nodes(

@@ -28,8 +28,8 @@ __all__ = [
 class BallraceError(Exception):
     """Base of every error of this package.
 
-    Names that a scene or a file brings along stand in the messages with their control characters written out,
-    so that they do not steer a terminal.
+    Messages show control characters in names from scenes and files as escapes, so that they do not affect a
+    terminal.
     """
 
     def __str__(self) -> str:
@@ -96,8 +96,8 @@ class IntegrationError(BallraceError, RuntimeError):
     body : str
         The body with the largest error, as in the names of the states.
     contacts : tuple of str
-        What held it up, the fastest first: contacts as ``row0.ball3.outer`` (ball and race), a cage as
-        ``row0.cage``, a support as ``outer.support``. Empty if nothing acts there.
+        Elements that limit the step, the fastest first: contacts as ``row0.ball3.outer`` (ball and race), a cage
+        as ``row0.cage``, a support as ``outer.support``. Empty if nothing acts there.
     """
 
     def __init__(
@@ -122,9 +122,9 @@ class BudgetError(IntegrationError):
     time : float
         Simulated time reached [s].
     budget : str
-        What was spent: ``time_limit`` or ``max_steps``.
+        The limit that was reached: ``time_limit`` or ``max_steps``.
     limit : float
-        What was allowed, in seconds or steps.
+        Its value, in seconds or steps.
     """
 
     def __init__(self, message: str, time: float, budget: str, limit: float) -> None:
@@ -135,15 +135,15 @@ class BudgetError(IntegrationError):
 
 
 class MemoryLimitError(BallraceError, MemoryError):
-    """A run would set more memory aside than there is; nothing was computed.
+    """A run would need more memory than is available; nothing was computed.
 
-    What there is, is the least of the machine's free memory and of what the limits of the process
-    (``ulimit -v``) and of its control groups (containers, batch systems) leave.
+    Available is the least of the machine's free memory and of what the limits of the process (``ulimit -v``)
+    and of its control groups (containers, batch systems) leave.
 
     Attributes
     ----------
     needed, available : float
-        What would be set aside, and what there is [bytes].
+        Memory that would be needed, and that is available [bytes].
     """
 
     def __init__(self, message: str, needed: float, available: float) -> None:
@@ -157,7 +157,7 @@ class MemoryLimitError(BallraceError, MemoryError):
 
 
 class AccuracyWarning(UserWarning):
-    """A run came to its end, but its signals want a second look; the message has the numbers and what to do.
+    """A run was completed, but its signals need a check; the message has the numbers and what to do.
 
     Given where the recorded accelerations of a ring differ by more than 5 % from the derivative of its
     velocities (``out.stats.acceleration_residual``), so that the steps do not resolve the contacts,
@@ -183,7 +183,7 @@ class CampaignError(BallraceError, RuntimeError):
 
 
 class CampaignWarning(UserWarning):
-    """Something about a campaign that one should know, and that did not stop it."""
+    """A campaign goes on, but something about it needs attention; the message says what."""
 
 
 def record_of(error: BallraceError) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""The equations of a scene, for an integrator of one's own."""
+"""The equations of a scene, for other integrators."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ __all__ = ["Model"]
 
 
 class Model:
-    """A compiled scene; never changed by what is done with it, so threads may share it.
+    """A compiled scene, which does not change, so threads may share it.
 
     Parameters
     ----------
@@ -34,7 +34,7 @@ class Model:
 
     Examples
     --------
-    Any integrator may drive the right-hand side, here one of SciPy's::
+    Any integrator may use the right-hand side, here one of SciPy's::
 
         y0 = model.start("equilibrium")
         scipy.integrate.solve_ivp(model.rhs, (0.0, 1e-3), y0, max_step=2e-6)

@@ -1,7 +1,7 @@
-"""A bearing's vibration as its maker measures it on every one: the test of ISO 15242-2, simulated.
+"""The vibration test that makers run on every bearing, ISO 15242-2, simulated.
 
-The inner ring sits on a stiff spindle that turns with 1800 1/min, thrust presses the outer ring, which stands
-still and may shake, and its radial velocity is told in three bands.
+The inner ring sits on a stiff spindle that turns with 1800 1/min, thrust presses the outer ring, which does not
+turn but is free to vibrate, and its radial velocity is given in three bands.
 """
 
 from __future__ import annotations
@@ -108,7 +108,7 @@ def noise_test(
         Texture of races and balls; by default that of a quiet bearing, 1 nm at order 30 of the races and 0.03 nm
         of the balls, slope 2. None: smooth.
     defects, clearance, lubricant, temperature_c
-        As of :func:`ballrace.bearing`. The standard asks for a thin oil.
+        As of :func:`ballrace.bearing`. The standard requires a thin oil.
     axial_load : float, optional
         Thrust [N]; by default the standard's for the outside diameter, up to 200 mm, and the contact angle: 150 N
         for a 6205. The table's numbers were not compared with its print.

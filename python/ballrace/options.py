@@ -29,8 +29,8 @@ Start = Literal["equilibrium", "rolling"]
 class Run(Part):
     """The arguments of a run as one document, which mirrors the core's.
 
-    :func:`ballrace.simulate` says what each means and what is allowed: its arguments and those of
-    :func:`ballrace.campaign` are these, with these defaults.
+    :func:`ballrace.simulate` describes each and its range; its arguments and those of :func:`ballrace.campaign`
+    are these. :func:`ballrace.simulate` has no default for ``duration``.
 
     Attributes
     ----------
@@ -39,17 +39,17 @@ class Run(Part):
     start : {"equilibrium", "rolling"} or array_like of shape (n_states,)
         Where the run starts.
     rtol, accuracy : float or None
-        Tolerance of the integrator, or the error of the accelerations that chooses it.
+        Tolerance of the integrator, or the error of the accelerations from which it is chosen.
     method : Method or None
         Method of integration.
     threads : int
-        Threads of the run; 0 chooses.
+        Threads of the run; 0: chosen automatically.
     bandwidth : {"auto"} or None
         Whether signals are filtered.
     settle : float or None
-        Time before t = 0 in which what the start leaves may die down [s].
+        Time before t = 0 in which the transient of the start decays [s].
     time_limit, max_steps
-        What the run may cost: wall time [s], and steps.
+        Limits of the run: wall time [s], and steps.
 
     Examples
     --------

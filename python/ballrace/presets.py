@@ -65,7 +65,7 @@ def cornering_wheel(lateral: float = 0.3) -> Scene:
     Parameters
     ----------
     lateral : float
-        Side force over the wheel's load: 0.3 is a brisk curve, 0.6 one near the limit of many tyres.
+        Side force over the wheel's load: 0.3 is a fast curve, 0.6 one near the limit of many tyres.
 
     Raises
     ------
@@ -93,7 +93,7 @@ def angular_contact_pair(
     speed_rpm : float
         Speed of the shaft [rev/min].
     arrangement : str
-        ``"back_to_back"``, stiff against tilting, or ``"face_to_face"``, which gives way to a bent shaft.
+        ``"back_to_back"``, stiff against tilting, or ``"face_to_face"``, compliant with a tilted shaft.
 
     Raises
     ------

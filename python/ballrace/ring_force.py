@@ -1,4 +1,4 @@
-"""Forces on rings by functions of one's own."""
+"""Forces on rings computed by the user's functions."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ class RingMotion(NamedTuple):
     Attributes
     ----------
     place : tuple of three floats
-        Centre of mass along x, y, z [m], 0 where the scene puts it.
+        Displacement of the centre of mass from its place in the scene, along x, y, z [m].
     angles : tuple of three floats
         Tilt about x and y, 0 where the ring stays parallel, and angle about its axis [rad].
     velocity : tuple of three floats
-        Of the centre of mass [m/s].
+        Velocity of the centre of mass [m/s].
     rates : tuple of three floats
         Rates of the angles [rad/s].
     """
@@ -42,12 +42,12 @@ class RingMotion(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class RingForce:
-    """A force on a ring by a function of one's own: magnetic pull, a seal, a squeeze film, a controller.
+    """A force on a ring computed by a function: magnetic pull, a seal, a squeeze film, a controller.
 
-    It is called once an evaluation of the right-hand side, several times for every sample, some 13 µs each, longer
-    than all the rest of a small bearing: for studies. A force along a direction by the ring's place is a
-    :class:`ballrace.scene.TableForce`, which costs next to nothing and is part of the scene. A run begins with the
-    equilibrium that includes it.
+    The function is called at every evaluation of the right-hand side, several times for every sample, some 13 µs
+    each, longer than all the rest of a small bearing: for studies. A force along a direction that depends on the
+    ring's place is a :class:`ballrace.scene.TableForce`, which costs almost nothing and is part of the scene. The
+    equilibrium from which a run begins includes the force.
 
     Attributes
     ----------
@@ -55,14 +55,15 @@ class RingForce:
         The ring it acts on.
     wrench : callable
         ``wrench(t, motion)`` of time [s] and a :class:`RingMotion`: forces along x, y, z on its centre [N],
-        or these and moments about it [N m]; three or six finite numbers. Smooth but for a few places, and
-        dependent on nothing but its arguments: a step may be tried again. What it raises ends the run.
+        or these and moments about it [N m]; three or six finite numbers. It has to be smooth except at a few
+        places, and to depend on its arguments only, since steps may be repeated. An exception that it raises ends
+        the run.
     stiffness : float
-        Bound of its stiffness [N/m], for the length of the steps.
+        Upper bound of its stiffness [N/m], which limits the steps.
     damping : float
-        Bound of its damping [N s/m], likewise.
+        Upper bound of its damping [N s/m], likewise.
     peak : tuple of two floats
-        Its largest force in the plane and along z [N], where it is a main load of the bearing.
+        Its largest force in the plane and along z [N]; needed where it is a main load of the bearing.
     in_plane : bool
         Whether it neither acts along z nor tilts the ring, so that a run may leave these directions out.
 
@@ -94,11 +95,13 @@ def passed(forces: Mapping[str, RingForce] | None) -> list[_Force]:
 
 
 def told(forces: Iterable[str] | None) -> list[tuple[Literal["asked"], str]]:
-    """Return what a record says of forces that its scene does not have."""
+    """Return the warning of a record about forces that its scene does not have."""
     names = ", ".join(forces or ())
     if not names:
         return []
-    return [("asked", f"forces by code that is no part of the scene acted on the rings: {names}")]
+    return [
+        ("asked", f"forces by functions, which the scene does not have, acted on rings: {names}")
+    ]
 
 
 def _passed(name: str, force: object) -> _Force:

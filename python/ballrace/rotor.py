@@ -1,4 +1,4 @@
-"""Stiffness and damping of a bearing over load and speed, for models of rotors."""
+"""Stiffness and damping of a bearing over load and speed, for rotor models."""
 
 from __future__ import annotations
 
@@ -52,12 +52,13 @@ class StiffnessTable:
     Entry ``[load, speed, i, j]`` is the force [N] or moment [N m] to be added to the inner ring along ``i`` for
     small, slow motion along ``j``, the outer ring being held: ``f = K q + C dq/dt``. The five directions are x
     (right), y (up), z (along the axis) [m] and the tilts about x and y [rad], about the ring's centre of mass. The
-    frame is right-handed, and so is that of ROSS, whose z runs along the shaft, too: nothing changes its sign.
+    frame is right-handed, as is that of ROSS, whose z also runs along the shaft: no sign changes.
 
     Attributes
     ----------
     stiffness : ndarray, shape (n_loads, n_speeds, 5, 5)
-        K [N/m, N/rad, N m/m, N m/rad]. Not quite symmetric: damping turns with the balls.
+        K [N/m, N/rad, N m/m, N m/rad]. Slightly unsymmetric, since damping acts in the rotating frame of the
+        balls.
     damping : ndarray, shape (n_loads, n_speeds, 5, 5)
         C [N s/m, N s/rad, N m s/m, N m s/rad].
     loads : dict of str to ndarray, shape (n_loads,)
@@ -67,7 +68,7 @@ class StiffnessTable:
     name : str
         The scene's name.
     warnings : tuple of str
-        What was warned of in any case.
+        Warnings of all cases.
     """
 
     stiffness: NDArray[np.float64]
@@ -98,8 +99,8 @@ class StiffnessTable:
     def ross_arguments(self, load: int = 0) -> dict[str, Any]:
         """Return the arguments of a ``BearingElement`` of ROSS, beside its node.
 
-        ROSS has x, y and z of a bearing, x and y coupled; what tilts do, and the coupling of z with x and y, it
-        has no place for (``stiffness_6x6`` has them).
+        ROSS has x, y and z of a bearing, x and y coupled; it does not include tilts and the coupling of z with x
+        and y (``stiffness_6x6`` does).
 
         Parameters
         ----------
@@ -196,10 +197,11 @@ def stiffness_table(
     """Compute the stiffness and damping of a bearing over its loads and speeds, for a model of a rotor.
 
     At each load and speed the forces of a run's contacts, with their damping, films and friction, are linearised
-    about the steady motion in which it begins. The balls follow the ring: along their radius and the axis as their
-    contacts let them; along the orbit and in their rotation so that friction does not change. That holds for
-    motion that is slow against the balls on their contacts, below some kHz, and whose C dq/dt is small beside K q.
-    What varies as balls pass is averaged. Supports of rings, the cage and defects are no part of it.
+    about the steady motion in which a run begins. The balls follow the ring: along their radius and the axis in
+    equilibrium with their contacts; along the orbit and in their rotation so that friction does not change. This
+    is valid for motion that is slow compared with vibration of the balls on their contacts, below some kHz, and
+    whose C dq/dt is small compared with K q. The variation as balls pass is averaged. Supports of rings, the cage
+    and defects are not included.
 
     Parameters
     ----------
@@ -211,7 +213,7 @@ def stiffness_table(
     speeds_rpm : array_like, optional
         Speeds of the inner ring [rev/min]; by default that of the scene.
     positions : int
-        Positions of the cage per ball pitch over which is averaged.
+        Positions of the cage per ball pitch that are averaged.
 
     Returns
     -------
@@ -223,7 +225,7 @@ def stiffness_table(
     SceneError
         An argument or a field of the scene is not usable.
     EquilibriumError
-        There is no stable equilibrium in some case, which a note tells.
+        There is no stable equilibrium in some case; a note of the error names the case.
 
     Warns
     -----
@@ -329,7 +331,9 @@ def _own_speed(scene: Scene) -> float:
     if isinstance(drive, SpeedDrive):
         if math.isfinite(speed := real(drive.speed)):
             return speed
-        raise SceneError("speeds_rpm", "absent", "given: the scene's own speed changes in time")
+        raise SceneError(
+            "speeds_rpm", "absent", "speeds [rev/min], since the scene's own speed changes in time"
+        )
     return drive.initial_speed
 
 

@@ -74,7 +74,7 @@ def simulate(
 ) -> Signals:
     """Run a scene and record its probes.
 
-    Other Python threads go on meanwhile, and Ctrl-C stops the run within half a second. A :class:`ballrace.Run`
+    Other Python threads run meanwhile, and Ctrl-C stops the run within half a second. A :class:`ballrace.Run`
     holds the arguments as one document: ``br.simulate(scene, **run.to_dict())``.
 
     Parameters
@@ -87,26 +87,26 @@ def simulate(
         Sampling rate of the signals [Hz]. It does not change the steps of the integrator.
     start : {"equilibrium", "rolling"}, ndarray of shape (n_states,) or Signals
         The static equilibrium in the cage's frame, the nominal places of pure rolling, a state in the
-        order of ``Model(scene).names``, or the end of another run, which goes on. Time begins at 0 again, and
-        tables in time with it; :class:`ballrace.Simulation` goes on in time.
+        order of ``Model(scene).names``, or another run, from whose end this one goes on. Time begins at 0 again,
+        for loads that change in time, too; :class:`ballrace.Simulation` goes on in time.
     rtol : float, optional
         Relative tolerance; by default ``scene.solver.rtol``.
     accuracy : float, optional
-        Relative error of the accelerations to stay below, 1e-4 to 0.1, over the first milliseconds from a
-        given state; chooses nodes, tolerance and step cap, and goes without `rtol`. It does so by pilot runs
-        of the first 3 ms, which take as long as 10 to 20 ms of the run itself. ``out.accuracy`` has what was
-        chosen and what errors the pilots showed; ``out.scene`` holds the choice. Fixed slices are kept as they
-        are; the method must be the default, ``"adams"``, on which the choice is measured.
+        Relative error of the accelerations that is aimed at, 1e-4 to 0.1, over the first milliseconds from a given
+        state. Nodes, tolerance and step cap are chosen for it, in place of `rtol`, by pilot runs of the first 3
+        ms, which take as long as 10 to 20 ms of the run itself. ``out.accuracy`` has the choice and the errors of
+        the pilot runs; ``out.scene`` has the choice, too. Fixed slices are kept; the method must be the default,
+        ``"adams"``, for which the choice was validated.
     method : str, optional
         Method of integration; by default ``scene.solver.method``.
     reduce : bool, optional
         Whether to leave out what does not change the motion (:meth:`Model.summary` lists it); by default
         ``scene.solver.reduce``, which is true.
     threads : int
-        Threads of the run; 0 chooses. The result is the same, bit by bit, for any number.
+        Threads of the run; 0: chosen automatically. The result is the same, bit by bit, for any number.
     progress : bool or callable, optional
-        True shows a bar on a terminal or in a notebook. A callable is given the share done, from 0 to 1, about
-        twenty times a second; what it raises stops the run.
+        True shows a bar on a terminal or in a notebook. A callable is called with the share done, from 0 to 1,
+        about twenty times a second; an exception that it raises stops the run.
     bandwidth : {"auto"} or None
         ``"auto"`` reads motion, cage forces and friction torques as finely as the steps go, and decimates them
         through a linear-phase low-pass: flat within 0.004 dB up to 0.4 `fs`, 83 dB down beyond 0.6 `fs`, without
@@ -115,8 +115,8 @@ def simulate(
         duration at most; beyond that, and before t = 0, signals are continued by their odd reflection.
         Contacts, energies, forces by origin and slices are values of a state and always points.
 
-        None takes point samples of the dense output for all columns, for those who study the integrator. What
-        lies above half the sampling rate is then folded into the band below: of a faulted 6205's acceleration
+        None takes point samples of the dense output for all columns, for studies of the integrator. Content
+        above half the sampling rate is then folded into the band below: of a faulted 6205's acceleration
         four fifths of the power at 12 kHz.
 
         In ``out.provenance``, ``bandwidth`` [Hz] is 0.4 `fs`, or `fs`/2 where `fs` is so high that no filter
@@ -124,12 +124,12 @@ def simulate(
     settle : float, optional
         Time before t = 0 in which the transient of the start decays [s], at most 1000; 0 switches it off. By
         default it is as long as the scene needs from equilibrium, at most 0.1 s, and 0 from any other
-        start. ``out.provenance.settled`` is its length, ``out.stats.settling_nfev`` what it
-        cost. Meanwhile loads and drive are as at t = 0 (a driving torque: the initial speed), and rings and cage
-        are turned back, so that at t = 0 they are where the scene says except for the slip of the balls; not so
-        from a given state.
+        start. ``out.provenance.settled`` is its length, ``out.stats.settling_nfev`` its number of
+        evaluations. Meanwhile loads and drive are as at t = 0 (a driving torque: the initial speed), and rings and
+        cage are turned back, so that at t = 0 they are where the scene puts them except for the slip of the balls;
+        this does not apply to a given state.
     time_limit : float, optional
-        Wall time that the run may take, equilibrium and pilot runs included [s], looked at about every 20 ms; by
+        Wall time that the run may take, equilibrium and pilot runs included [s], checked about every 20 ms; by
         default any.
     max_steps : int, optional
         Steps that the run may take, accepted and rejected ones; by default any. The same run ends at the same
@@ -138,12 +138,12 @@ def simulate(
         Parquet file to write the signals to while the run goes on, without keeping them: a record of 1.8 GB took
         0.24 GB of memory, most of it at the end, when the file is put together, and longer ones take some more. It
         is the file that :meth:`Signals.write_parquet` writes of the run without `out`, with units, scene,
-        statistics and provenance. It appears at once when the run is over and it is whole, and replaces one of the
+        statistics and provenance. It appears only when the run is over and it is complete, and replaces one of the
         same name; nothing of it is left where the run fails or is stopped. Until then a hidden folder beside it
         holds the samples: the disk must have room for them twice.
     forces : mapping of str to RingForce, optional
-        Forces on the rings by functions of your own, by name; slow, for studies. A document cannot have them, so
-        the scene does not: ``out.warnings`` names them. What a function raises, this raises.
+        Forces on the rings by functions, by name; slow, for studies. They are not part of the scene:
+        ``out.warnings`` names them. Exceptions of a function are raised.
 
     Returns
     -------
@@ -173,7 +173,7 @@ def simulate(
         The steps do not resolve the contacts, or contacts rode over a shoulder or past the pole of ball
         and groove.
     SceneWarning
-        The scene is not what it seems to say: a number that no bearing is likely to have, contacts beyond the
+        The scene is probably not what was meant: a number that no bearing is likely to have, contacts beyond the
         static load rating (``out.stats.largest_pressure``), columns that cannot change, `fs` below
         twice the line of a defect.
 
@@ -226,7 +226,7 @@ def shown(
     label: str,
     work: Callable[[Callable[[float], object] | None], T],
 ) -> T:
-    """Work while a bar, or a callable, is told the share done."""
+    """Work while a bar, or a callable, is given the share done."""
     if progress is not True:
         return work(progress or None)
     with Bar(label or "simulating") as bar:
@@ -234,7 +234,7 @@ def shown(
 
 
 def warn(raw: _Signals, *, stacklevel: int) -> None:
-    """Warn of what a run has met; what was asked for is told without."""
+    """Give the warnings of a run, except those about what its caller asked for."""
     for category, text in raw["warnings"]:
         if category != "asked":
             warnings.warn(printable(text), _CATEGORIES[category], stacklevel=stacklevel)

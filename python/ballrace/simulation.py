@@ -1,4 +1,4 @@
-"""Runs that go on in pieces, are looked at between them, and may be changed."""
+"""Runs in pieces, between which they can be inspected and changed."""
 
 from __future__ import annotations
 
@@ -31,22 +31,22 @@ if TYPE_CHECKING:
 __all__ = ["Simulation"]
 
 _OPEN = 1e6
-"""The longest duration of a run, of one that ends when it is told to [s]."""
+"""The longest duration of a run, that of one without an end of its own [s]."""
 
 
 class Simulation:
-    """A run that goes on in pieces.
+    """A run in pieces.
 
-    Its record is that of :func:`ballrace.simulate`, bit by bit, whatever the pieces: a step of the integrator is
-    not shortened where one ends; states there are read within the step. Between pieces its state, contacts and
-    forces can be read, and loads, speeds, clearances and defects changed.
+    Its record is that of :func:`ballrace.simulate`, bit by bit, whatever the pieces: the end of a piece does not
+    shorten a step of the integrator; states there are interpolated within the step. Between pieces its state,
+    contacts and forces can be read, and loads, speeds, clearances and defects changed.
 
     Parameters
     ----------
     scene : Scene
         What to run.
     duration : float, optional
-        Time at which the run ends by itself [s]; by default it ends when :meth:`finish` says so, before 1e6 s.
+        Time at which the run ends by itself [s]; by default it ends with :meth:`finish`, before 1e6 s.
     keep : bool
         Whether the record stays in memory for :meth:`finish`.
     fs, start, rtol, accuracy, method, reduce, threads, progress, bandwidth, settle, max_steps
@@ -54,8 +54,8 @@ class Simulation:
     time_limit : float, optional
         Wall time that the beginning and each call may take [s]. A run that it stops may go on.
     forces : mapping of str to RingForce, optional
-        As of :func:`ballrace.simulate`. What a function raises, the call raises and every later one; there are no
-        snapshots of such a run.
+        As of :func:`ballrace.simulate`. An exception of a function is raised by the call and every later one; such
+        a run has no snapshots.
 
     Raises
     ------
@@ -64,7 +64,7 @@ class Simulation:
 
     Examples
     --------
-    Turn up the load until a contact carries 400 N:
+    Raise the load until a contact carries 400 N:
 
     >>> import ballrace as br
     >>> scene = br.presets.deep_groove_6205(radial_load=500.0)
@@ -151,10 +151,10 @@ class Simulation:
         Raises
         ------
         SceneError
-            It has forces by code, which a document cannot have.
+            It has forces by functions, which a snapshot cannot hold.
         """
         if self._forces:
-            allowed = "none for a snapshot: code cannot be written; TableForce is part of the scene"
+            allowed = "absent for a snapshot, which cannot hold functions; a TableForce is part of the scene"
             raise SceneError("forces", ", ".join(self._forces), allowed)
         return Snapshot(self._core.snapshot(), tuple(self._pieces))
 
@@ -192,7 +192,7 @@ class Simulation:
         return self._core.contacts()
 
     def wrench(self, ring: Literal["outer", "inner"]) -> NDArray[np.float64]:
-        """Return what the balls put on a ring.
+        """Return force and moment of the balls on a ring.
 
         Returns
         -------
@@ -232,7 +232,7 @@ class Simulation:
         Raises
         ------
         SceneError
-            The time is over, or beyond the end of the run.
+            The time has passed, or is beyond the end of the run.
         IntegrationError
             The motion cannot go on.
         BudgetError
@@ -247,16 +247,16 @@ class Simulation:
     def change(self, changes: Mapping[str, object]) -> None:
         """Change fields of the scene by their paths, as :meth:`Scene.replace` does.
 
-        Loads, moments, the drive, gravity, clearances, defects, friction: whatever leaves bodies, the directions
-        that are held, and probes as they are. The scene is compiled anew, and the integrator starts anew as at a
-        corner of a table; the motion goes on from where it is, and tables in time go on with the time of the run.
-        A new driving speed holds at once: to change it smoothly, give a ramp or a table.
+        Allowed are changes of loads, moments, the drive, gravity, clearances, defects, friction and others that
+        keep the bodies, the held directions and the probes. The scene is compiled again, and the integrator
+        restarts as at a corner of a table; the motion goes on from its state, and tables in time from the time of
+        the run. A new driving speed applies at once: to change it smoothly, give a ramp or a table.
 
         Raises
         ------
         SceneError
-            A path leads nowhere, a value is not usable, or the change asks for other bodies or probes. The
-            simulation is then as it was.
+            A path does not exist, a value is not usable, or the change needs other bodies, held directions or
+            probes. The simulation is then as it was.
         """
         if not hasattr(changes, "items"):
             raise SceneError("changes", repr(changes), "new values by their paths")
@@ -266,10 +266,10 @@ class Simulation:
     def set_loads(self, loads: Mapping[str, float]) -> None:
         """Set the sizes of constant loads, moments and of a constant torque of the drive by their paths.
 
-        For forces from another simulation, which exchanges them every few microseconds: the integrator starts anew
-        as in :meth:`change`, but nothing is compiled. Tolerances, step limits, films, textures and places of
-        defects stay those of the loads that the scene was compiled with. Sizes that are those before leave the
-        motion as it is, bit by bit.
+        It is for forces from another simulation that exchanges them every few microseconds: the integrator
+        restarts as in :meth:`change`, but nothing is compiled. Tolerances, step limits, films, textures and places
+        of defects stay those of the loads with which the scene was compiled. Unchanged sizes leave the motion as
+        it is, bit by bit.
 
         Parameters
         ----------
@@ -284,7 +284,8 @@ class Simulation:
 
         Examples
         --------
-        A belt pulls the inner ring down by 500 N, and by 50 N/µm more as it is stretched; held for 10 µs each:
+        A belt pulls the inner ring down with 500 N, and with 50 N/µm of its stretch; the force is updated every 10
+        µs:
 
         >>> import ballrace as br
         >>> scene = br.presets.deep_groove_6205(radial_load=500.0)
@@ -306,24 +307,24 @@ class Simulation:
         self._core.set_loads([(checked_path(path), real(size)) for path, size in loads.items()])
 
     def set_motions(self, motions: Mapping[str, Sequence[float]], *, until: float) -> None:
-        """Move rings whose motion the scene gives from where they are to places with speeds, by paths of motions.
+        """Move rings with given motions from where they are to places with speeds, by paths of motions.
 
-        For rings that are part of another simulation, which says before each piece where they will be at its end.
-        Places and speeds are continuous, a cubic leads from one to the other; after that time they go on with
-        these speeds. The integrator starts anew as in :meth:`change`, but nothing is compiled.
+        It is for rings that are part of another simulation, which gives before each piece their places at its end.
+        Places and speeds are continuous: a cubic joins them, and after its end the rings go on with
+        these speeds. The integrator restarts as in :meth:`change`, but nothing is compiled.
 
         Parameters
         ----------
         motions : mapping of str to two floats
             Place [m] and speed [m/s], of tilts [rad] and [rad/s], by paths such as ``inner_ring.support.x.given``.
         until : float
-            When they are there [s]; later than :attr:`time`.
+            Time at which they reach these places [s]; later than :attr:`time`.
 
         Raises
         ------
         SceneError
-            A path is no given motion, a place is too far or no number, or the time is over. The simulation is then
-            as it was.
+            A path is no given motion, a place is too far or no number, or the time has passed. The simulation is
+            then as it was.
 
         Examples
         --------

@@ -60,7 +60,7 @@ class RaceFilm:
     friction : float
         Friction coefficient at large slip.
     slip_scale : float
-        Slip at which friction bends from its rise to that [m/s].
+        Slip over which friction rises to that [m/s].
     reference_load : float
         Load of a contact [N]: the lubricant's, or that of the equilibrium without films.
     reference_speed : float
@@ -98,8 +98,8 @@ class Equilibrium:
     outer_tilt, inner_tilt : ndarray, shape (2,)
         Tilts of the rings about x and y [rad].
     outer_moment, inner_moment : ndarray, shape (2,)
-        Moments about x and y that the balls put on the rings, each about its own centre [N m]: what keeps a ring
-        from tilting carries them.
+        Moments about x and y that the balls put on the rings, each about its own centre [N m]; the support that
+        keeps a ring from tilting carries them.
     row, ball : ndarray of int, shape (n_balls,)
         Row, and place of the ball in it, both from 0.
     angle, radius, z : ndarray, shape (n_balls,)
@@ -121,10 +121,10 @@ class Equilibrium:
     iterations : int
         Iterations of the solver.
     warnings : tuple of str
-        What was warned of.
+        Texts of the warnings.
     residual : float
-        Force left unbalanced on the body that is worst off: on a ring along its free directions, on a
-        ball along its radius and z [N].
+        Largest unbalanced force on a body: on a ring along its free directions, on a ball along its radius and z
+        [N].
     residual_share : float
         The same over the largest load, of a contact or on a ring; at most 1e-4, or there is no equilibrium.
     """
@@ -199,18 +199,18 @@ def equilibrium(
 ) -> Equilibrium:
     """Solve a scene at rest in the cage's frame, with all loads, gravity and centrifugal forces.
 
-    Centrifugal forces are those of the speed at which the balls go round at the contact angles found; friction
-    carries the gyroscopic moments of balls that spin freely (``spin="free"``).
+    Centrifugal forces are those of the orbit speed at the contact angles found; friction carries the gyroscopic
+    moments of balls that spin freely (``spin="free"``).
 
     Parameters
     ----------
     scene : Scene
         The scene.
     race_control : {"friction", "outer"}
-        What decides about which axis a ball spins that spins freely: friction at both races, as in a run, or the
+        What determines the spin axis of a ball that spins freely: friction at both races, as in a run, or the
         outer race, on which it then does not pivot (Jones' hypothesis, for fast bearings under light loads).
     forces : mapping of str to RingForce, optional
-        Forces on the rings by functions of your own, as of :func:`ballrace.simulate`.
+        Forces on the rings by functions, as of :func:`ballrace.simulate`.
 
     Returns
     -------
@@ -243,7 +243,7 @@ def _equilibrium(told: Mapping[str, Any]) -> Equilibrium:
 
 
 def warned(texts: Iterable[str], *, stacklevel: int) -> tuple[str, ...]:
-    """Warn the caller of a public function of what the core doubts, and return the texts."""
+    """Give the core's warnings to the caller of a public function, and return their texts."""
     texts = tuple(texts)
     for text in texts:
         warnings.warn(text, SceneWarning, stacklevel=stacklevel)
@@ -254,23 +254,24 @@ def warned(texts: Iterable[str], *, stacklevel: int) -> tuple[str, ...]:
 class Stiffness:
     """Tangent stiffness at the static equilibrium, in the scene's frame: x right, y up, z along the axis.
 
-    Entry ``[i, j]`` is the force [N] to be added along ``i`` per metre along ``j``, for small moves: positive on
-    the diagonal. The balls follow the rings, each free along its radius and along z at the angle where the cage
-    holds it. Supports of rings, gravity, damping and friction are no part of it. Symmetric.
+    Entry ``[i, j]`` is the force [N] to be added along ``i`` per metre along ``j``, for small displacements:
+    positive on the diagonal. The balls follow the rings, each free along its radius and along z at the angle where
+    the cage holds it. Supports of rings, gravity, damping and friction are not included. The matrices are
+    symmetric.
 
     Attributes
     ----------
     inner : ndarray, shape (3, 3)
-        Inner ring against a held outer ring: forces and moves of the inner ring along x, y, z [N/m].
+        Inner ring against a held outer ring: forces and displacements of the inner ring along x, y, z [N/m].
     rings : ndarray, shape (6, 6)
         Both rings: x, y, z of the outer, then x, y, z of the inner ring [N/m].
     inner_spatial : ndarray, shape (5, 5)
         Inner ring with its tilts: forces along x, y, z [N] and moments about x and y, about the ring's centre of
-        mass [N m], by moves along x, y, z [m] and tilts about x and y [rad], in this order.
+        mass [N m], by displacements along x, y, z [m] and tilts about x and y [rad], in this order.
     rings_spatial : ndarray, shape (10, 10)
         The same of both rings: the five of the outer, then those of the inner ring.
     equilibrium : Equilibrium
-        Where the bearing stands.
+        The equilibrium at which they are taken.
     """
 
     inner: NDArray[np.float64]
@@ -359,11 +360,11 @@ class LoadDistribution:
     outer_moment, inner_moment : ndarray, shape (n_positions, 2)
         Moments about x and y that balls and loads put on the rings [N m].
     outer_equivalent, inner_equivalent : ndarray, shape (n_rows,)
-        Equivalent loads of the races [N]: the load that, on every ball all the time, tires the race as much. The
-        inner ring turns, (mean of Q³)^(1/3); the outer ring stands, (mean of Q^(10/3))^(3/10), after ISO/TS 16281;
-        where ``outer_speed`` turns the outer ring, the first is its too, the second of an inner ring that stands.
+        Equivalent loads of the races [N]: the load that, constant on every ball, gives the race the same fatigue
+        life, after ISO/TS 16281. For a ring that turns relative to the load (mean of Q³)^(1/3), for one that
+        stands (mean of Q^(10/3))^(3/10); the outer ring turns with an ``outer_speed``.
     warnings : tuple of str
-        What was warned of.
+        Texts of the warnings.
     """
 
     turn: NDArray[np.float64]
@@ -410,8 +411,8 @@ class LoadDistribution:
 def load_distribution(scene: Scene, *, positions: int = 16) -> LoadDistribution:
     """Solve a scene at rest at many positions of its cage; return ball loads and equivalent loads for life.
 
-    Defects are left out: a ball in a spall at one of these positions would count as if it were there all the time.
-    :func:`equilibrium` knows them. Where all balls are alike, the cage turns by one ball pitch, which shows every
+    Defects are left out, since a ball in a spall at one of these positions would count as if it were always there;
+    :func:`equilibrium` includes them. Where all balls are alike, the cage turns by one ball pitch, which places a
     ball at every angle. Where they differ (diameters, rows of different numbers of balls) it makes a whole turn.
 
     Parameters

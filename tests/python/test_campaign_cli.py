@@ -91,7 +91,7 @@ def test_the_sweep_of_the_guide(tmp_path: Path) -> None:
         ('scene = "x"\n[grid]\na = [1]', "scene = x: one of wheel-bearing"),
         ('scenes = { b = "x" }\n[grid]\na = [1]', "scenes.b = x: one of wheel-bearing"),
         ('scenes = "wheel-bearing"\n[grid]\na = [1]', "scenes = wheel-bearing: a table of scenes by name"),
-        ('scene = "wheel-bearing"\ngrid = 3', "grid = 3: a table, as told by ballrace campaign"),
+        ('scene = "wheel-bearing"\ngrid = 3', "grid = 3: a table, as described by ballrace campaign"),
         ('scene = "wheel-bearing"\nband = 3\nduration = 1e-3\n[grid]\n"rows[0].clearance" = [1e-5]',
          "band = 3: two frequencies [Hz]"),
         ('scene = "wheel-bearing"\ntable = "\\u0000.csv"', "table = \\x00.csv: the name of a file or folder"),
@@ -100,7 +100,7 @@ def test_the_sweep_of_the_guide(tmp_path: Path) -> None:
         ('scene = "wheel-bearing"\n[sobol]\nx = [0, 1]\nn = 131072\nseed = 1\n'
          "[latin_hypercube]\ny = [0, 1]\nn = 100\nseed = 1", "cases = 13,107,200 cases: at most 10,000,000"),
         ('scene = "wheel-bearing"\n[scatter]\nn = 2', "scatter = "),
-        ('scene = "wheel-bearing"\n[scatter]\nn = 2\nseed = 1\nsize = 1.0', "as told by ballrace campaign"),
+        ('scene = "wheel-bearing"\n[scatter]\nn = 2\nseed = 1\nsize = 1.0', "as described by ballrace campaign"),
     ],
 )  # fmt: skip
 def test_bad_sweeps(

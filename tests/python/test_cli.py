@@ -64,7 +64,7 @@ def test_demo(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     out = br.Signals.read_parquet(folder / "axial_3000N.parquet")
     assert out.scene == br.presets.wheel_bearing(3000.0)
     page = (folder / "demo.html").read_text(encoding="utf-8")
-    assert "Why thrust makes a spall louder" in page
+    assert "Why thrust makes the impacts of a spall stronger" in page
     # Self-contained: no script is fetched.
     assert not re.search(r"<script[^>]*\ssrc=", page)
 

@@ -72,7 +72,7 @@ def test_marks_are_a_table_of_meanings() -> None:
 @pytest.mark.parametrize(
     ("name", "told"),
     [
-        ("6205-2RS/QQ7", "QQ7: not known, and left aside; taken as 6205"),
+        ("6205-2RS/QQ7", "QQ7: not known, and ignored; taken as 6205"),
         ("6205DDUC3X9", "X9: not known"),
         (
             "6205 ETN9",

@@ -34,7 +34,7 @@ def test_cwru_keys(tmp_path: Path) -> None:
     assert list(record) == ["DE", "FE", "BA"]
     np.testing.assert_array_equal(record["BA"], 3.0 * X)
     assert (record.fs, record.shaft, record.units["DE"]) == (12_000.0, 1797.0 / 60.0, "")
-    with pytest.raises(br.SceneError, match=r"fs = None: .* which 105\.mat does not tell"):
+    with pytest.raises(br.SceneError, match=r"fs = None: .* which 105\.mat does not have"):
         br.read(path)
 
 
@@ -325,7 +325,7 @@ def test_rates_formats_and_sizes_are_refused_by_name(
 def test_a_rate_that_is_none_is_the_files_fault(tmp_path: Path, told: float) -> None:
     path = tmp_path / "a.mat"
     savemat(path, {"ay": np.arange(4.0), "fs": told})
-    with pytest.raises(br.FileError, match=r"a\.mat: tells a sampling rate of .* Hz; give fs"):
+    with pytest.raises(br.FileError, match=r"a\.mat: has a sampling rate of .* Hz; give fs"):
         br.read(path)
     assert br.read(path, fs=12e3).fs == 12e3
 

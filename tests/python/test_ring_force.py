@@ -67,7 +67,8 @@ def test_an_equilibrium_has_a_force_by_code(scene: br.Scene) -> None:
 def test_a_record_tells_what_its_scene_does_not_have(scene: br.Scene, tmp_path: Path) -> None:
     out = br.simulate(scene, duration=2e-4, settle=0.0, forces={"spring": FORCE})
     assert (
-        out.warnings[-1] == "forces by code that is no part of the scene acted on the rings: spring"
+        out.warnings[-1]
+        == "forces by functions, which the scene does not have, acted on rings: spring"
     )
     out.write_parquet(tmp_path / "run.parquet")
     read = br.Signals.read_parquet(tmp_path / "run.parquet")
@@ -160,7 +161,7 @@ def test_what_is_no_force_is_refused_by_name(scene: br.Scene) -> None:
         with pytest.raises(br.SceneError, match=told):
             br.simulate(scene, duration=1e-3, forces=forces)  # type: ignore[arg-type]
     simulation = br.Simulation(scene, settle=0.0, forces={"spring": FORCE})
-    with pytest.raises(br.SceneError, match="forces = spring: none for a snapshot"):
+    with pytest.raises(br.SceneError, match="forces = spring: absent for a snapshot"):
         simulation.snapshot()
 
 

@@ -281,7 +281,10 @@ RING = s.MotionProbe(body="inner", components=("omega_x",))
     ("changes", "message"),
     [
         ({"spin": "round"}, r'spin = "round".*"axial" or "free"'),
-        ({"probes": {"ring": RING}}, r"probes\.ring\.motion\.components = omega_x: a component of inner"),
+        (
+            {"probes": {"ring": RING}},
+            r"probes\.ring\.motion\.components = omega_x: a component of inner",
+        ),
         ({"spin": "axial", "probes": {"ball": BALL}}, r'omega_x: .* need spin = "free"'),
         ({"approximations.rolling": True}, r"approximations.*balls spin freely"),
         ({"approximations.plane": True}, r"approximations.*balls spin freely"),

@@ -246,7 +246,7 @@ def test_speeds_of_a_record_that_do_not_fit_are_refused_by_name() -> None:
             r"^speed_rpm = 600.0: .* not that of the outer ring",
         ),
         (("6205",), {"outer_rpm": math.inf}, r"^outer_rpm = inf"),
-        ((rates,), {"outer_rpm": 1800.0}, r"^outer_rpm = 1800: left out"),
+        ((rates,), {"outer_rpm": 1800.0}, r"^outer_rpm = 1800: absent"),
         (
             (hub(outer_speed=Ramp(from_=0.0, to=9.0, start=0.0, end=1.0)), 0.0),
             {},

@@ -65,10 +65,9 @@ def bearing(
 ) -> Scene:
     """Return a scene of a bearing of the catalogue, ready to run.
 
-    Hertz's law, Coulomb friction, a cage of pressed steel with some play, the inner ring on a shaft (1 kg in a
-    6205, damped, held by nothing but the balls); the outer ring in a housing, one mass with it, on a mount; the
-    motion of both rings recorded, the outer's being the housing's. What it assumes is in the fields of the
-    scene, all of which :meth:`ballrace.Scene.replace` changes.
+    The scene has Hertz's law, Coulomb friction, a cage of pressed steel with some play, the inner ring on a shaft
+    (1 kg in a 6205, damped, held by the balls only), the outer ring in a housing, one mass with it, on a mount,
+    and probes of the motion of both rings. All of this can be changed by :meth:`ballrace.Scene.replace`.
 
     Parameters
     ----------
@@ -78,20 +77,19 @@ def bearing(
     radial_load : float, optional
         Load on the inner ring along -y [N]; by default a tenth of the static load rating.
     axial_load : float, optional
-        Load on the inner ring along +z [N], of either sign on a deep groove bearing and by default none there. An
-        angular contact bearing holds it towards +z alone, and a radial load only together with it: more than
-        ``radial_load * tan(contact_angle)``. By default the opposed bearing gives it the thrust under which half
-        of its balls carry, 1.22 times that. A double row bearing, which stands back to back without play and
-        preload, takes it either way.
+        Load on the inner ring along +z [N]. Deep groove bearings take either sign; by default 0. An angular
+        contact bearing takes it towards +z only, and has to have more than ``radial_load * tan(contact_angle)``;
+        by default 1.22 times that, the thrust under which half of its balls carry load, as from an opposed
+        bearing. A double row bearing, back to back without play and preload, takes either sign; by default 0.
     speed_rpm : float, optional
         Speed of the inner ring [rev/min]; by default 1800, and 0 where the outer ring turns.
     outer_rpm : float, optional
-        Speed of the outer ring with what it sits in [rev/min], as in hubs, idlers and planets; by default it
-        stands. Its defects, waviness and texture turn with it, loads and gravity do not.
+        Speed of the outer ring with its seat [rev/min], as in hubs, idlers and planets; by default it stands. Its
+        defects, waviness and texture turn with it, loads and gravity do not.
     clearance : {"C2", "CN", "C3", "C4", "C5"} or float, optional
-        Of a deep groove bearing: the middle of a class of ISO 5753-1, or a diametral clearance [m]; by default the
-        class that the name says (``"6205-2RS/C3"``), else CN. Fits take some of it. Angular contact bearings have
-        none, whatever class their name says: their contact angle says it.
+        For deep groove bearings: the middle of a class of ISO 5753-1, or a diametral clearance [m]; by default the
+        class in the name (``"6205-2RS/C3"``), else CN. Fits are not subtracted. In angular contact bearings the
+        clearance follows from the contact angle, whatever class is in their name.
     defects : Defect, or mapping of str to Defect
         Defects, as :mod:`ballrace.defects` makes them; a single one is named ``defect``.
     lubricant : str or Lubricant, optional
@@ -99,12 +97,12 @@ def bearing(
     temperature_c : float, optional
         Temperature of an oil by name where it enters the contacts [°C].
     housing : {"pedestal"}, Pedestal or None
-        What the outer ring sits in, one mass with it. ``"pedestal"``: a cast pillow block that grows with the
-        bearing, 0.8 kg for an outside diameter of 52 mm (a unit UCP205 of makers' catalogues) and with its
-        cube, which is an approximation (4.1 kg for 90 mm, where a UCP210 has some 2.7), on a mount of 1 kHz and
-        a damping ratio of 3 %, which are chosen. In a 6205 it swings together with the shaft at 0.65 kHz, and
-        against it on the loaded balls at 1.7 kHz (100 N) to 2.7 kHz (1500 N). A :class:`ballrace.Pedestal`:
-        one's own. None: the ring alone on a stiff spring (near 5 kHz, damped at 5 %, whatever the size), as in
+        Housing of the outer ring, one mass with it. ``"pedestal"``: a cast pillow block of 0.8 kg for an outside
+        diameter of 52 mm (a unit UCP205 of makers' catalogues), which grows with the cube of the diameter, an
+        approximation (4.1 kg for 90 mm, where a UCP210 has some 2.7), on a mount of 1 kHz and a damping ratio of
+        3 %, both chosen. In a 6205 it vibrates in phase with the shaft at 0.65 kHz, and in antiphase on the loaded
+        balls at 1.7 kHz (100 N) to 2.7 kHz (1500 N). A :class:`ballrace.Pedestal`: another housing. None: the ring
+        alone on a stiff spring (near 5 kHz, damped at 5 %, whatever the size), as in
         :func:`ballrace.presets.deep_groove_6205`.
     texture : Texture, optional
         Texture of races and balls; by default they are smooth.
@@ -112,13 +110,13 @@ def bearing(
     Raises
     ------
     SceneError
-        The name is not known (the message says what it is, or has those near), it is a thrust bearing, an argument
-        is not usable, or a named oil has no temperature.
+        The name is not known (the message says what it is, or suggests similar ones), it is a thrust bearing, an
+        argument is not usable, or a named oil has no temperature.
 
     Warns
     -----
     SceneWarning
-        The name has marks that are not known, or that stand for other balls.
+        The name has marks that are not known, or that mean other balls.
 
     Examples
     --------
@@ -167,9 +165,7 @@ def rows_of(made: Bearing, clearance: str | float) -> tuple[Row, ...]:
         allowed = "a radial bearing: contact angles of scenes end at 80°; br.catalogue has its fault frequencies"
         raise SceneError("name", repr(made.designation), allowed)
     if made.kind != "deep_groove" and clearance != "CN":
-        allowed = (
-            "left away: the clearance of an angular contact bearing follows from its contact angle"
-        )
+        allowed = "absent, since the clearance of an angular contact bearing follows from its contact angle"
         raise SceneError("clearance", repr(clearance), allowed)
     single = Row(
         ball_count=made.ball_count,
@@ -191,16 +187,16 @@ def rows_of(made: Bearing, clearance: str | float) -> tuple[Row, ...]:
 def said_clearance(
     name: str | Bearing, made: Bearing, clearance: str | float | None = None
 ) -> str | float:
-    """Return the clearance that is asked for, by the name of a bearing or beside it."""
+    """Return the clearance that was asked for, by the name of a bearing or as an argument."""
     named = isinstance(name, str) and made.kind == "deep_groove"
     said = catalogue.read(str(name)).clearance if named else None
     if said and clearance not in (None, said):
-        raise SceneError("clearance", repr(clearance), f"{said!r}, which {name!r} says, or absent")
+        raise SceneError("clearance", repr(clearance), f"{said!r}, as in {name!r}, or absent")
     return said or ("CN" if clearance is None else clearance)
 
 
 def metal(made: Bearing) -> float:
-    """Return how much metal the outer ring of a bearing has, over that of a 6205."""
+    """Return the metal of the outer ring of a bearing, over that of a 6205."""
     return (made.outside_diameter**2 - made.pitch_diameter**2) * made.width / _OF_6205
 
 
@@ -229,7 +225,7 @@ def _thrust(made: Bearing, radial: float, axial: float | None) -> float:
     if single and not (axial > least or axial == radial == 0.0):
         allowed = (
             f"above {least:.4g} N towards +z, radial_load * tan(contact angle): with less the rings of a "
-            f"{made.designation} come apart; by default its opposed bearing gives it what half of the balls need"
+            f"{made.designation} come apart; left out, it is the thrust under which half of the balls carry load"
         )
         raise SceneError("axial_load", f"{axial:g}", allowed)
     return axial

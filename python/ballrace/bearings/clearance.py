@@ -27,7 +27,7 @@ _TABLE = (
 
 
 def radial_clearance(bore: float, clearance: str | float) -> float:
-    """Return the diametral clearance of a deep groove bearing [m]: the middle of a class, or a number as it is.
+    """Return the diametral clearance of a deep groove bearing [m]: the middle of a class, or the given number.
 
     Parameters
     ----------

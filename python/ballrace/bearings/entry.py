@@ -16,7 +16,7 @@ Kind: TypeAlias = Literal["deep_groove", "angular_contact", "double_row", "thrus
 
 @dataclass(frozen=True, kw_only=True)
 class Uncertainty:
-    """How far an estimated bearing may be off: nine real ones of ten are nearer, each number for itself.
+    """Error of an estimated bearing: nine of ten real ones are closer, in each number separately.
 
     Attributes
     ----------
@@ -36,7 +36,7 @@ class Uncertainty:
 
 @dataclass(frozen=True, kw_only=True)
 class Bearing:
-    """A bearing of the catalogue, or one's own.
+    """A bearing of the catalogue, or a user's own.
 
     Attributes
     ----------
@@ -61,7 +61,7 @@ class Bearing:
     f0 : float or None
         The factor f₀ that the maker prints, C₀ = f₀ Z D² cos α with D in mm [N/mm²]; None: none.
     uncertainty : Uncertainty or None
-        Of a bearing by :meth:`from_dimensions`; None: of the catalogue, or one's own.
+        Of a bearing by :meth:`from_dimensions`; None: of the catalogue, or a user's own.
     """
 
     designation: str

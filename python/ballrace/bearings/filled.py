@@ -56,7 +56,7 @@ def filled(
 ) -> Scene:
     """Return the checked scene; the fields are those of :class:`ballrace.Scene`, the arguments of ``bearing``.
 
-    Without a speed the inner ring has the usual one [rev/min], and stands where the outer ring turns.
+    Without a speed the inner ring turns at ``usual_rpm``, or stands where the outer ring turns.
 
     Raises
     ------

@@ -64,7 +64,7 @@ class Temperatures:
 
 @dataclass(frozen=True, kw_only=True)
 class OperatingClearance:
-    """What the clearance in operation is made of; diametral, all [m]. ``print`` tells it.
+    """Parts of the clearance in operation, all diametral [m]; ``print`` shows them.
 
     Attributes
     ----------
@@ -73,13 +73,13 @@ class OperatingClearance:
     initial : float
         Before mounting.
     shaft_fit, housing_fit : float
-        What each fit takes, by the interference in operation after Lamé.
+        Reduction by each fit, from the interference in operation after Lamé.
     heat : float
-        What the rings' and the balls' expansion takes; below 0: gives.
+        Reduction by the expansion of rings and balls; below 0: an increase.
     shaft_interference, housing_interference : float
         Interferences in operation, less smoothing; below 0: play, which moves no raceway.
     smoothing : float
-        What smoothing of the surfaces took of each interference.
+        Loss of each interference by smoothing of the surfaces.
     """
 
     designation: str
@@ -147,7 +147,7 @@ def operating_clearance(
     housing: Seat = _THICK,
     smoothing: float = 2.6e-6,
 ) -> OperatingClearance:
-    """Return the clearance of a deep groove bearing in operation, and what it is made of.
+    """Return the clearance of a deep groove bearing in operation, with its parts.
 
     Parameters
     ----------
@@ -163,13 +163,13 @@ def operating_clearance(
     shaft, housing : Seat
         Their materials and free diameters; by default a solid shaft and a thick housing, of steel.
     smoothing : float
-        What smoothing of both surfaces takes of an interference [m]: by default 0.8 (Rz + Rz) of ground surfaces
+        Loss of an interference by smoothing of both surfaces [m]: by default 0.8 (Rz + Rz) of ground surfaces
         with Rz 1.6 µm, after DIN 7190-1.
 
     Raises
     ------
     SceneError
-        The bearing is not known or none of deep groove, or an argument is not usable.
+        The bearing is not known or not a deep groove bearing, or an argument is not usable.
 
     Examples
     --------
@@ -239,7 +239,7 @@ def steady_temperatures(
     ambient: float = 20.0,
     inner_share: float = 0.5,
 ) -> Temperatures:
-    """Return the temperatures at which rings give off what friction produces, by fixed point.
+    """Return the temperatures at which rings give off the heat that friction produces, by fixed-point iteration.
 
     ``T = T_ambient + share P((T_inner + T_outer)/2) / G`` for each ring, half a step at a time.
 
@@ -287,7 +287,7 @@ def steady_temperatures(
             break
         mean += 0.5 * (wanted - mean)
     raise EquilibriumError(
-        f"no steady temperature: at {mean:.0f} °C losses of {power:.4g} W ask for {wanted:.0f} °C"
+        f"no steady temperature: at {mean:.0f} °C losses of {power:.4g} W would need {wanted:.0f} °C"
     )
 
 

@@ -21,8 +21,8 @@ _DAMPING_RATIO = 0.03
 class Pedestal:
     """A housing with the outer ring in it, as one mass on a mount that is alike in x, y and z.
 
-    It takes part in the dynamics: the balls push it, and the probe ``outer`` shows its motion. A
-    :class:`ballrace.measuring.Housing` is another thing: how a run's acceleration of the ring passes on to a
+    It takes part in the dynamics: the balls push it, and the probe ``outer`` records its motion. A
+    :class:`ballrace.measuring.Housing` is something else: the transfer of a run's acceleration from the ring to a
     sensor, applied afterwards.
 
     Attributes

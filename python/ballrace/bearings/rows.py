@@ -27,8 +27,8 @@ class Catalogue(Mapping[str, Bearing]):
 
     A name may be that on a box, with its maker, seals, cage, clearance, tolerance and grease, such as ``SKF
     6205-2RSH/C3``: :meth:`read` takes it apart. They are not part of the row that it finds;
-    :func:`ballrace.bearing` takes the clearance from them. Marks that are not known, or change the balls, are told
-    by a :class:`ballrace.SceneWarning`.
+    :func:`ballrace.bearing` takes the clearance from them. A :class:`ballrace.SceneWarning` reports marks that are
+    not known, or that change the balls.
 
     Examples
     --------
@@ -62,7 +62,7 @@ class Catalogue(Mapping[str, Bearing]):
         Raises
         ------
         SceneError
-            It names no bearing of the catalogue; the message says why, or has those near.
+            It names no bearing of the catalogue; the message says why, or suggests similar ones.
 
         Examples
         --------
@@ -136,7 +136,7 @@ def _doubtful(found: Name, row: Bearing) -> Iterator[str]:
     """Return what keeps the row from being that bearing."""
     balls = f"{row.ball_count} balls of {1e3 * row.ball_diameter:g} mm"
     if found.unknown:
-        known = f"not known, and left aside; taken as {row.designation}"
+        known = f"not known, and ignored; taken as {row.designation}"
         yield f"{', '.join(found.unknown)}: {known}"
     for mark, meaning in found.effects.items():
         yield f"{mark}, {meaning}: taken as {row.designation}, {balls} of steel"

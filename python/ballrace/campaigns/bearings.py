@@ -34,18 +34,18 @@ def scatter(
     start_phase: bool = True,
     texture_seed: bool = False,
 ) -> pl.DataFrame:
-    """Return a table of ``n`` bearings that differ as made ones do.
+    """Return a table of ``n`` bearings with random deviations, as from manufacturing.
 
-    Every row of balls of every bearing draws its own numbers: normal about the drawing, nothing beyond three
-    standard deviations. The column ``bearing_id`` says which bearing a case is of: split data for learning by
-    it, never by case, or what was learnt of a bearing is examined on the same bearing.
+    Every row of balls of every bearing has its own numbers: normally distributed about the nominal ones, cut off
+    at three standard deviations. The column ``bearing_id`` is the bearing of a case: split data for learning by
+    it, not by case, or models are tested on bearings that they were trained on.
 
     Cross the table with loads and defects by ``table.join(br.grid(...), how="cross")``.
 
     Parameters
     ----------
     scene : Scene
-        The drawing.
+        The nominal bearing.
     n : int
         Number of bearings, at most ten million.
     seed : int

@@ -89,7 +89,7 @@ class Cases:
         return self._limits(self._rows[index])
 
     def changes(self, index: int) -> dict[str, Any]:
-        """Return what the row changes: ``scene``, fields by their paths, and arguments of the run."""
+        """Return the changes of the row: ``scene``, fields by their paths, and arguments of the run."""
         return self._changes(self._rows[index])
 
     def frame(self) -> pl.DataFrame:

@@ -35,7 +35,7 @@ def grid(values: Mapping[str, Iterable[object]]) -> pl.DataFrame:
     Raises
     ------
     SceneError
-        There is nothing to combine, or more than ten million cases come of it.
+        There is nothing to combine, or there would be more than ten million cases.
 
     Examples
     --------
@@ -94,7 +94,7 @@ def _series(name: str, column: list[object]) -> pl.Series:
 def latin_hypercube(
     ranges: Mapping[str, tuple[float, float]], n: int, *, seed: int
 ) -> pl.DataFrame:
-    """Return a Latin hypercube sample: each of ``n`` equal parts of every range is met once.
+    """Return a Latin hypercube sample: each of ``n`` equal parts of every range has one value.
 
     Parameters
     ----------
@@ -131,7 +131,7 @@ def sobol(ranges: Mapping[str, tuple[float, float]], n: int, *, seed: int) -> pl
     ranges, seed
         As for :func:`latin_hypercube`.
     n : int
-        Number of cases, at most ten million and a power of two: others spoil the balance of the sequence.
+        Number of cases, a power of two, at most ten million: other numbers unbalance the sequence.
 
     Raises
     ------

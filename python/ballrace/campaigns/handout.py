@@ -1,4 +1,4 @@
-"""Which cases of a campaign go out together, so that one that ends its worker is found, and no other is lost."""
+"""Which cases of a campaign are submitted together, so that one that ends its worker is found and none is lost."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ class Handout:
 
 
 def has_died(error: BaseException) -> bool:
-    """Say whether an executor tells by this error that a worker has died: its pool is broken, or Dask gave up."""
+    """Return whether this error of an executor means that a worker died: its pool is broken, or Dask gave up."""
     return isinstance(error, BrokenExecutor) or type(error).__name__ == "KilledWorker"
 
 

@@ -49,10 +49,11 @@ class Kept:
         ``case_id``; the table's own columns; ``fault_outer_race``, ``fault_inner_race``, ``fault_ball``: whether a
         loaded contact met such a defect in the run, empty where no ball passed it or there was no run;
         ``status``: ``ok``, ``failed`` or ``missing``; ``error`` and ``message`` of a failed case; ``warnings``:
-        why to look twice at one that ran, empty for most (those of :class:`ballrace.AccuracyWarning` and
+        why a case that ran needs a check, empty for most (those of :class:`ballrace.AccuracyWarning` and
         :class:`ballrace.SceneWarning`, joined by semicolons); ``version`` of the solver; ``accepted``,
-        ``rejected``, ``nfev``: its effort; ``wall_time`` [s]; ``acceleration_residual``, ``truncated_contacts``:
-        what accuracy is judged by, as in ``out.stats``; ``simd``: the vector instructions it ran on;
+        ``rejected``, ``nfev``: steps and evaluations; ``wall_time`` [s]; ``acceleration_residual``,
+        ``truncated_contacts``: measures of accuracy, as in ``out.stats``; ``simd``: the vector instructions it
+        used;
         ``signals``: the shard that holds them; the features with their standard errors, and ``turns``,
         ``row0.passes`` and ``batches`` that these come from (see :func:`ballrace.campaign`); and of every defect
         with a width, such as ``defects.spall``: ``.placed_at``, its axial place [m], ``.passes`` of balls,
@@ -93,7 +94,7 @@ class Kept:
 
     @property
     def warned(self) -> pl.DataFrame:
-        """The rows of the manifest that ran, but want a second look."""
+        """The rows of the manifest that ran but need a check."""
         from .._polars import pl
 
         return self.manifest.filter(pl.col("warnings").is_not_null())

@@ -49,7 +49,7 @@ class Progress:
     elapsed : float
         Time since this call began [s].
     warned : int
-        Finished by this call with something to look at twice: the column ``warnings`` of the manifest says what.
+        Finished by this call with warnings, which are in the column ``warnings`` of the manifest.
     """
 
     total: int

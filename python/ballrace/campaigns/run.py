@@ -134,17 +134,17 @@ def campaign(
         One row a case: polars, pandas, Arrow, a list of dicts or a dict of columns. Columns with a dot or an
         index are fields of the scene (``loads.axial.force``, ``rows[0].clearance``), as are its own fields;
         ``duration``, ``fs``, ``start``, ``rtol``, ``accuracy``, ``method``, ``bandwidth`` (``"auto"`` or
-        ``"none"``), ``settle``, ``time_limit`` and ``max_steps`` replace the arguments of that name; ``scene``
-        says which one if there are several. Every other column is a label, and only carried along; one that
-        resembles a field is warned of. An empty cell changes nothing.
+        ``"none"``), ``settle``, ``time_limit`` and ``max_steps`` replace the arguments of that name; ``scene`` is
+        the name of the scene if there are several. Every other column is a label, which is only copied to the
+        results; a label that resembles a field causes a warning. An empty cell changes nothing.
     out : path
         Folder of the campaign, made if it does not exist. With an executor all workers must see it under this
         name.
     scene : Scene, or mapping of str to Scene
-        What the rows change, or several of them by name.
+        The scene that the rows change, or several scenes by name.
     duration, fs, start, rtol, accuracy, method, bandwidth, settle
-        As for :func:`ballrace.simulate`. Features never contain the start: they begin at t = 0, when it has
-        settled. With ``settle=0``, or from a rolling start, it is in them as far as `skip` does not leave it out.
+        As for :func:`ballrace.simulate`. Features begin at t = 0, when the start has settled. With ``settle=0``,
+        or from a rolling start, they include its transient unless `skip` leaves it out.
     keep : {"features", "signals"}
         Whether the signals of every case are kept beside its features.
     columns : sequence of str, optional
@@ -169,24 +169,28 @@ def campaign(
         Band of the envelope [Hz]; by default all frequencies.
     contact_loads : bool
         Whether the extremes of the contact loads are among the features: ``row0.outer.load_max`` and so on [N].
-        They cost a reading of every contact at every sample, and do not change the signals. ``largest_pressure``,
-        the largest Hertz pressure of any contact at the start or the end of the run [Pa], is always among them.
+        They need every contact at every sample, which costs time, and do not change the signals.
+        ``largest_pressure``, the largest Hertz pressure of any contact at the start or the end of the run [Pa], is
+        always among them.
     threads : int, optional
         Cases at once in this process, or in each task of an executor; by default all cores, or one with an
         executor.
     executor : optional
         Where tasks run: a :class:`concurrent.futures.Executor` whose workers were not forked, or anything with
-        ``get_executor()``, such as a Dask ``Client``. Its tasks share the memory of a machine: all of a pool are
-        counted as on one, those of Dask by the addresses of its workers, of others only what a task takes.
+        ``get_executor()``, such as a Dask ``Client``. Tasks share the memory of their machine: all tasks of a pool
+        count as on one machine, those of Dask by the addresses of its workers; other executors are checked for one
+        task only.
     in_flight : int, optional
-        Tasks handed to the executor at most; by default two for each of its workers.
+        Tasks handed to the executor at most; by default two for each of its workers, or for each core of this
+        machine where the executor does not state their number.
     retries : int
-        How often a case is tried again, by itself in a new pool, if its worker died, as of too little memory; if
-        it dies again the case is a row with a CampaignError. 0: a worker's death ends the campaign. Of executors
-        other than Dask and :class:`concurrent.futures.ProcessPoolExecutor` a broken pool always does.
+        How often a case is tried again, by itself in a new pool, if its worker died, for example of too little
+        memory; if it dies again the case is a row with a CampaignError. 0: a worker's death ends the campaign.
+        With executors other than Dask and :class:`concurrent.futures.ProcessPoolExecutor` a broken pool always
+        ends it.
     shard : tuple of int, int
-        ``(i, n)`` runs every n-th case from the i-th, i from 0: n such calls, in any places at any times,
-        make up the whole.
+        ``(i, n)`` runs every n-th case from the i-th, i from 0: n such calls, on any machines at any times, run
+        the whole campaign.
     resume : {"auto", "strict", False}
         A folder with cases finished by another version of the solver: ``"auto"`` warns and goes on, ``"strict"``
         refuses. False refuses every folder with finished cases.
@@ -199,9 +203,9 @@ def campaign(
     dry_run : bool
         Run the first missing case, write nothing, and return an :class:`~ballrace.campaigns.Estimate`.
     time_limit, max_steps
-        What a case may cost, as for :func:`ballrace.simulate`; one that costs more is a row with a BudgetError.
-        Results do not depend on it, so a case is not known by it: called again with a larger limit, or none,
-        the cases run again that had spent the smaller one, and no others.
+        Limits for each case, as for :func:`ballrace.simulate`; a case that exceeds one is a row with a
+        BudgetError. They are not part of the hash that identifies a case: called again with a larger limit, or
+        none, only the cases that had exceeded the smaller one run again.
 
     Returns
     -------
@@ -213,7 +217,7 @@ def campaign(
     SceneError
         An argument or a column is not usable; nothing was written.
     TypeError
-        The executor is none; nothing was written.
+        The executor is not usable; nothing was written.
     CampaignError
         The folder is not usable, or a worker failed. What has finished is safe.
     OSError
@@ -226,8 +230,8 @@ def campaign(
     SceneWarning
         A number of ``scene`` is one that no bearing is likely to have, or a probe records what cannot move.
     CampaignWarning
-        A column that is no field resembles one; there are cases of another version, or that ran on other vector
-        instructions; files were damaged, and their cases run again; a worker died, and its cases are tried again.
+        A label resembles a field; there are cases of another version, or that ran on other vector instructions;
+        files were damaged, and their cases run again; a worker died, and its cases are tried again.
 
     Examples
     --------
@@ -385,8 +389,8 @@ def _write_table(plan: Plan, store: Store) -> None:
             lost = set(there["case_id"]) - set(frame["case_id"])
             if lost:
                 raise CampaignError(
-                    f"{store.root}: its table has {len(lost)} cases that this one has not; give all shards the "
-                    "same table, or a shard all those cases and more"
+                    f"{store.root}: its table has {len(lost)} cases that this table lacks; give all shards the "
+                    "same table, or one that includes these cases"
                 )
         store.write_table("cases.parquet", frame)
 

@@ -292,10 +292,10 @@ def _readmit(root: Path, wrong: Mapping[str, str], wanted: Mapping[str, Any]) ->
         return
     features = json.dumps(wanted.get("features"))
     for path in results:
-        with suppress(FileNotFoundError, ValueError):  # those that are damaged are told later
+        with suppress(FileNotFoundError, ValueError):  # those that are damaged are reported later
             if shard_of_results(path)[1] != features:
                 set_aside([path])
-    text = f"{root}: its description was lost, and is that of this call now; finished cases are known by their ids"
+    text = f"{root}: its description was lost, and that of this call replaces it; finished cases keep their ids"
     warn(text, CampaignWarning, 6)
 
 

@@ -43,7 +43,7 @@ def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:
         commands, "schema", "print the JSON Schema of scenes, for editors and other programs",
         "ballrace schema > scene.schema.json", _schema,
     )  # fmt: skip
-    added(commands, "doctor", "say what is installed, and try a run", "ballrace doctor", _doctor)
+    added(commands, "doctor", "show what is installed, and try a run", "ballrace doctor", _doctor)
 
 
 def version() -> str:

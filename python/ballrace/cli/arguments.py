@@ -1,4 +1,4 @@
-"""Arguments that several subcommands have, and what stands behind them."""
+"""Arguments that several subcommands share, and their readers."""
 
 from __future__ import annotations
 

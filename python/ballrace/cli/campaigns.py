@@ -51,7 +51,10 @@ def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:
         "-o", "--output", type=Path, metavar="FOLDER", help="folder of the campaign"
     )
     parser.add_argument(
-        "--status", type=Path, metavar="FOLDER", help="say how far the campaign in a folder is"
+        "--status",
+        type=Path,
+        metavar="FOLDER",
+        help="show the progress of the campaign in a folder",
     )
     parser.add_argument(
         "--verify", action="store_true",
@@ -88,7 +91,7 @@ def _command(options: argparse.Namespace) -> None:
         allowed = "SWEEP -o FOLDER, --status FOLDER, or FOLDER --verify"
         raise SceneError("campaign", "no sweep", allowed)
     if str(options.output) == "-":
-        raise SceneError("output", "-", "a folder; a campaign is more than a stream")
+        raise SceneError("output", "-", "a folder, not standard output")
     sweep = read(options.sweep)
     # What is asked for now goes before what the sweep says: a budget is no part of what a campaign is.
     for name in BUDGET:
@@ -213,7 +216,7 @@ def _built(name: str, entry: Any, scene: Scene | dict[str, Scene], folder: Path)
     if name == "table":
         return _file(folder / as_path(str(entry), "table"))
     if not isinstance(entry, dict):
-        raise SceneError(name, str(entry), "a table, as told by ballrace campaign --help")
+        raise SceneError(name, str(entry), "a table, as described by ballrace campaign --help")
     entry = dict(entry)
     try:
         if name == "grid":
@@ -228,7 +231,7 @@ def _built(name: str, entry: Any, scene: Scene | dict[str, Scene], folder: Path)
         if isinstance(error, SceneError):
             raise
         raise SceneError(
-            name, str(entry), f"as told by ballrace campaign --help ({error})"
+            name, str(entry), f"as described by ballrace campaign --help ({error})"
         ) from error
 
 

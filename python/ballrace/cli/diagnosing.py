@@ -27,27 +27,29 @@ __all__ = ["add_commands"]
 def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:
     """Add the subcommand."""
     found = added(
-        commands, "diagnose", "say of a record whether its bearing is damaged: healthy, damaged or undecided",
+        commands, "diagnose", "diagnose the bearing of a record: healthy, damaged or undecided",
         "ballrace diagnose 105.mat --fs 12000 --channel DE --bearing 6205 --rpm 1797 -o page.html", _diagnose,
     )  # fmt: skip
     add_signals(found)
     found.add_argument(
         "--bearing", metavar="NAME", help="designation, as 6205, or scene, .toml or .json (default: the run's)"
     )  # fmt: skip
-    add_speeds(found, "what the file knows")
+    add_speeds(found, "that of the file")
     found.add_argument(
         "--speed-within", type=float, metavar="SHARE",
         help="how far the speed may be off, 0 to 0.01 (default: 0.01, of a run 0)",
     )  # fmt: skip
     found.add_argument(
-        "--fs", type=float, metavar="HZ", help="sampling rate that the file does not tell"
+        "--fs", type=float, metavar="HZ", help="sampling rate, where the file does not have it"
     )
     found.add_argument(
         "--channel",
         metavar="NAME",
         help="column (default: outer.ay if there is one, else the first)",
     )
-    found.add_argument("--unit", choices=("m/s^2", "g"), help="unit that the file does not tell")
+    found.add_argument(
+        "--unit", choices=("m/s^2", "g"), help="unit, where the file does not have it"
+    )
     found.add_argument(
         "--false-alarm", type=float, default=0.01, metavar="SHARE",
         help="share of healthy records that may be called damaged (default: %(default)s)",

@@ -26,7 +26,9 @@ def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:
         help="scene to begin with, .toml or .json, or measured record to lay beside the run (default: a 6205)",
     )  # fmt: skip
     page.add_argument(
-        "--port", type=int, help="port on this machine, which no other reaches (default: free)"
+        "--port",
+        type=int,
+        help="port on this machine, not reachable from others (default: a free one)",
     )
     page.add_argument(
         "--no-browser", action="store_true", help="print the address and open no browser"

@@ -82,7 +82,7 @@ def _add_spectrum(commands: Commands[argparse.ArgumentParser]) -> None:
     spectrum.add_argument(
         "--bearing", metavar="NAME", help="of the catalogue, for fault lines of a measured signal"
     )
-    add_speeds(spectrum, "what the file knows", "fault lines")
+    add_speeds(spectrum, "that of the file", "fault lines")
     spectrum.add_argument(
         "-o",
         "--output",
@@ -119,7 +119,7 @@ def _report(options: argparse.Namespace) -> None:
 def _spectrum(options: argparse.Namespace) -> None:
     band = None if options.band is None else (options.band[0], options.band[1])
     if options.plain and band is not None:
-        raise SceneError("band", str(band), "left away with --plain: it is that of the envelope")
+        raise SceneError("band", str(band), "absent with --plain: it is the band of the envelope")
     if options.output is not None and str(options.output) != "-":
         if options.output.suffix.lower() not in (".csv", ".html"):
             raise SceneError("output", str(options.output), "a file that ends in .csv or .html")
@@ -147,7 +147,7 @@ def _spectrum(options: argparse.Namespace) -> None:
 
 
 def read_columns(path: Path, fs: float | None = None) -> Columns:
-    """Read a run, which knows its scene, or a record, whose sampling rate may have to be told [Hz]."""
+    """Read a run, which has its scene, or a record, whose sampling rate may have to be given [Hz]."""
     try:
         # One without a hash was written by something else, and is read in a child process.
         if path.suffix.lower() in PARQUET and is_sealed(path):
@@ -155,7 +155,7 @@ def read_columns(path: Path, fs: float | None = None) -> Columns:
     except SceneError:
         raise
     except ValueError:
-        pass  # damaged, or a record: reading it tells
+        pass  # damaged, or a record: reading it shows
     return read(path, fs)
 
 

@@ -42,7 +42,7 @@ def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:
         "--json", action="store_true", help="print the solution as JSON, in SI units"
     )
     told = added(
-        commands, "explain", "tell what a scene is compiled to, what it costs and what would be cheaper",
+        commands, "explain", "show what a scene is compiled to, what it costs and what would be cheaper",
         "ballrace explain scene.toml", _explain,
     )  # fmt: skip
     add_scene(told)

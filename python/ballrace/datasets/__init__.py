@@ -2,8 +2,8 @@
 
 That package (0.3.0, MIT licence) gives 69 public measured sets one layout: a folder with a table of signals, their
 samples in Parquet files, and a card. :meth:`ballrace.campaigns.Campaign.to_bearing_datasets` writes it,
-:func:`read_bearing_dataset` reads it, and neither needs the package. :func:`bearing_split` parts any table so that
-no bearing is on both sides.
+:func:`read_bearing_dataset` reads it, and neither needs the package. :func:`bearing_split` splits any table so
+that no bearing is in both parts.
 """
 
 from __future__ import annotations

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 __all__ = ["classes_of"]
 
 _KNOWN = (("fault_type",), ("label",), tuple(f"fault_{on}" for on in SURFACES))
-"""Columns that tell classes: of data sets, of windows of a run, of campaigns and their windows."""
+"""Columns of classes: in data sets, in windows of a run, in campaigns and their windows."""
 
 
 def classes_of(
@@ -28,8 +28,8 @@ def classes_of(
     table : polars.DataFrame
         The table.
     columns : str or sequence of str, optional
-        Columns that tell classes; by default ``fault_type``, ``label`` or the three ``fault_…`` of a
-        campaign, whichever are there. ``()``, or none of these: all rows are one class.
+        Columns of classes; by default ``fault_type``, ``label`` or the three ``fault_…`` of a
+        campaign, whichever exist. ``()``, or none of these: all rows are one class.
     argument : str
         What ``columns`` is called in an error.
 

@@ -1,4 +1,4 @@
-"""Rows for training and for testing, with no bearing on both sides."""
+"""Rows for training and for testing, with no bearing in both parts."""
 
 from __future__ import annotations
 
@@ -30,10 +30,10 @@ def bearing_split(
     balance: str | Sequence[str] | None = None,
     seed: int = 0,
 ) -> tuple[pl.DataFrame, pl.DataFrame]:
-    """Part a table for training and testing: no bearing is on both sides, and every class is on each.
+    """Split a table for training and testing: no bearing is in both parts, and every class is in each.
 
     Windows of a run, and runs of a bearing, resemble each other, so that after a random split much of the test
-    data is as the training data. Bearings are assigned one by one in 200 random orders, each to the side that
+    data resembles the training data. Bearings are assigned one by one in 200 random orders, each to the part that
     lacks most of its classes, and the most even result is taken.
 
     Parameters
@@ -44,12 +44,12 @@ def bearing_split(
         Share of the rows of each class that are for testing, above 0 and below 1; met as closely as whole
         bearings allow.
     groups : str
-        Column that tells bearings apart.
+        Column that identifies bearings.
     balance : str or sequence of str, optional
-        Columns that tell classes apart; by default ``fault_type``, ``label`` or the three ``fault_…`` of a
-        campaign, whichever are there, or none. ``()``: all rows are one class.
+        Columns of classes; by default ``fault_type``, ``label`` or the three ``fault_…`` of a campaign, whichever
+        exist. ``()``, or none of these: all rows are one class.
     seed : int
-        Which orders are tried.
+        Seed of the orders.
 
     Returns
     -------
@@ -59,7 +59,7 @@ def bearing_split(
     Raises
     ------
     SceneError
-        An argument is not usable, a row has no bearing, or a class has too few bearings to be on both sides.
+        An argument is not usable, a row has no bearing, or a class has too few bearings to be in both parts.
 
     Examples
     --------

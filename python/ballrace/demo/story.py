@@ -20,7 +20,7 @@ __all__ = ["page"]
 def page(cases: Mapping[str, Case]) -> Page:
     """Return the page."""
     none, towards, away = cases.values()
-    made = Page("Why thrust makes a spall louder, or silent")
+    made = Page("Why thrust makes the impacts of a spall stronger, or vanish")
     made.text(
         "A double-row wheel bearing under 7 kN of radial load turns 30 times a second. Its outer race has a "
         "spall. The same spall is run three times: without thrust, with 3 kN towards it, and with 3 kN away "

@@ -6,7 +6,7 @@
 'healthy'
 
 ==============  ==================================================================================================
-``arguments``   what is asked, checked; ``lacking``: what a record would need
+``arguments``   checks of the arguments; ``lacking``: what a record would need
 ``kinematics``  orders of a bearing, whatever names it
 ``envelopes``   prewhitening, spectra of squared envelopes in bands, levels over their running medians
 ``shaft``       rate of the shaft from its own orders

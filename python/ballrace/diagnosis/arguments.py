@@ -1,4 +1,4 @@
-"""What a diagnosis is asked with, checked."""
+"""Checks of the arguments of a diagnosis."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def checked_channel(channel: Channel, unit: str | None, name: str = "record") ->
 
 
 def _checked_unit(unit: str, known: str) -> str:
-    """Return a unit that was given, of a record that does not tell another."""
+    """Return the given unit, for a record that has no other."""
     if not isinstance(unit, str) or unit.replace("²", "^2") not in ACCELERATIONS:
         raise SceneError("unit", repr(unit), f"one of {', '.join(ACCELERATIONS)}, or None")
     unit = unit.replace("²", "^2")

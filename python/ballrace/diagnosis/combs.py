@@ -117,7 +117,7 @@ def comb_of(part: Part, orders: Orders) -> Comb:
 
     A place on the inner race goes through the load zone once a turn of the shaft, a ball once a turn of the cage,
     one on the outer race where its ring turns: their lines have sidebands there. A ball's defect meets a race
-    twice a turn. Where the ball's axis turns, blows change from pass to pass through the load zone, and the
+    twice a turn. Where the ball's axis turns, impacts change from pass to pass through the load zone, and the
     lines between sidebands fade: two sidebands on each side are a family of their own.
     """
     plain = tuple((k, 0) for k in _HARMONICS)

@@ -56,12 +56,12 @@ class Evidence:
     part : {"outer_race", "inner_race", "ball", "cage"}
         The part.
     role : {"outer_race", "inner_race", "ball", "cage"}
-        The part of a bearing whose outer ring stands that it is judged as. In a hub the inner race stands: like an
-        outer race elsewhere it has lines of balls that pass the load.
+        The part whose rules apply, those of a bearing whose outer ring stands. In a hub the inner race stands, and
+        is judged as an outer race: its lines are those of balls that pass through the load zone.
     order : float
         Order of its fault that was expected, of a ball 2·BSF.
     factor : float
-        Order that was found over it: what slip, contact angle and dimensions make of it.
+        Order that was found over it: the effect of slip, contact angle and dimensions.
     contact_angle : float or None
         The angle at which rolling balls explain the factor [rad]; None if none does, or dimensions are not known.
     z : float
@@ -71,20 +71,21 @@ class Evidence:
     band : tuple of two floats
         Band in which it stands out most [Hz].
     whitening : {"cepstrum", "smoothed"}
-        How the record was prewhitened where it does: each amplitude of its spectrum alone, or over a running mean.
+        The prewhitening with which it stands out most: each amplitude of the spectrum set to one, or divided by a
+        running root mean square.
     chance : tuple of two floats
         Median and 99 % quantile of the null's lines in that band [dB].
     height : float
         Mean level of its lines in that band [dB].
     lines : tuple of Line
-        Significant lines: those above the null's 99 %.
+        Significant lines: those above the null's 99 % quantile.
     hidden : float
-        Share of its lines that nominally lie on the shaft's or on what was excluded, and so are not counted.
+        Share of its lines that are not counted, since they nominally lie on the shaft's or on excluded ones.
     strength : Strength
-        How strong it is.
+        Depth of modulation and acceleration at the fault's rate.
     ratio : float or None
-        How many times likelier simulated bearings show this with the part sound than with it damaged, 0.01 to 100;
-        None of the cage.
+        Likelihood ratio among simulated bearings: how many times more likely this is with the part healthy than
+        with it damaged, 0.01 to 100; None for the cage.
     """
 
     part: Part

@@ -84,14 +84,14 @@ def kinematics_of(
     if speeds is None:
         return found
     if found.orders.outer:
-        allowed = "left out: the orders of the bearing tell how its outer ring turns"
+        allowed = "absent, since the orders of the bearing include how its outer ring turns"
         raise SceneError("outer_rpm", f"{60.0 * speeds[0]:g}", allowed)
     outer, inner = speeds
     return replace(found, orders=found.orders.turned(outer / (inner - outer)))
 
 
 def _at_rest(bearing: AnyBearing) -> Kinematics:
-    """Return the orders of what is no scene, whose outer ring stands if they do not tell."""
+    """Return the orders where no scene is given; without speeds in them the outer ring stands."""
     if isinstance(bearing, Bearing):
         return Kinematics(name=bearing.designation, orders=bearing.orders, row=bearing)
     if isinstance(bearing, Row):

@@ -56,7 +56,7 @@ def wanting_of(channel: Channel, shaft: float, kinematics: Kinematics, within: f
     found = [*_unclipped(channel.x), *_long_enough(channel, shaft, kinematics, within)]
     if channel.unit in VELOCITIES:
         found.append(
-            f"an acceleration: this is a velocity in {channel.unit}, which has little of what rings"
+            f"an acceleration: this is a velocity in {channel.unit}, in which ringing after impacts is weak"
         )
     return found
 
@@ -71,7 +71,7 @@ def _unclipped(x: NDArray[np.float64]) -> list[str]:
 def _long_enough(
     channel: Channel, shaft: float, kinematics: Kinematics, within: float
 ) -> list[str]:
-    """Ask for more turns where an order of a race lies so near a whole one that the shaft's lines hide its own."""
+    """Require more turns where an order of a race is so near an integer that the shaft's lines hide its own."""
     orders = kinematics.orders
     part, order, near = min(
         (
@@ -93,14 +93,14 @@ def _long_enough(
 
 
 def notes_of(channel: Channel, kinematics: Kinematics) -> tuple[str, ...]:
-    """Return what the record was warned of, and why its lines' size was not judged."""
+    """Return the warnings of the record, and why the strength of its lines was not judged."""
     notes = list(channel.warnings)
     if _unclipped(channel.x) and not any("clipped" in note for note in notes):
-        notes.append("the record is clipped: levels, lines and blows are larger than they look")
+        notes.append("the record is clipped: levels, lines and impacts are larger than recorded")
     if channel.unit != "m/s^2":
         known = f"{channel.unit} is no acceleration; give the record of one"
         unit = known if channel.unit in VELOCITIES else "its unit is not known; give unit="
-        notes.append(f"how strong lines are was not judged: {unit}")
+        notes.append(f"the strength of lines was not judged: {unit}")
     elif kinematics.row is None:
-        notes.append("how strong lines are was not judged: only orders of the bearing are known")
+        notes.append("the strength of lines was not judged: only orders of the bearing are known")
     return tuple(notes)

@@ -1,7 +1,7 @@
 """Simulated records whose damage is known, and what is found in them.
 
 ``library.csv`` has a record a row: bearings of the catalogue under loads, clearances, waves or textures of the
-races and spalls by chance, heard through random housings in noise. It is made anew by
+races and spalls by chance, measured through random housings in noise. It is made anew by
 ``python benches/verdict_library.py``; the likelihood of damage and the width of a spall are read from it.
 
 =====================  ==========================================================================================

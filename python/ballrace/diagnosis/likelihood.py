@@ -1,11 +1,11 @@
-"""How much likelier what was found is with a part sound than with it damaged, among simulated bearings.
+"""Likelihood ratio of what was found: with a part healthy over with it damaged, among simulated bearings.
 
-Lines that stand out are no damage by themselves: a loaded healthy bearing has some, too. Over the records of the
-library a logistic regression tells damage of a part from everything else, other damage included, by how far its
-lines stand out, alone and beside those of other parts, and by how deep, impulsive and strong they are. Its odds
-over the odds of the library are a likelihood ratio (N. Brümmer, J. du Preez, Comput. Speech Lang. 20 (2006) 230),
-which does not depend on how many records of the library are damaged. What some 1400 records cannot tell it does
-not claim: it is kept within 1 : 100 and 100 : 1.
+Lines that stand out are no damage by themselves: a loaded healthy bearing has some, too. On the records of the
+library a logistic regression separates damage of a part from everything else, other damage included, by how far
+its lines stand out, alone and compared with those of other parts, and by their depth of modulation, kurtosis and
+acceleration. Its odds over the odds of the library are a likelihood ratio (N. Brümmer, J. du Preez, Comput. Speech
+Lang. 20 (2006) 230), which does not depend on how many records of the library are damaged. It is limited to
+1 : 100 and 100 : 1, since some 1400 records do not support more.
 """
 
 from __future__ import annotations
@@ -45,8 +45,8 @@ def at_any_size(acceleration: float, diameter: float, rate: float) -> float:
 
     Waves of a height h on a race move a ring of a mass m on contacts of a stiffness k by an acceleration of h·k/m.
     Of bearings that differ in size alone, pressed alike, k goes with the pitch diameter D (Hertz) and m with its
-    cube: waves of the same height, as grinding leaves them, cause accelerations as 1/D². Blows of spalls that are
-    the same part of a ball wide go as 1/D. Among the records of the library it is D to the power −2.2 without
+    cube: waves of the same height, as grinding leaves them, cause accelerations as 1/D². Impacts of spalls that
+    are the same part of a ball wide go as 1/D. Among the records of the library it is D to the power −2.2 without
     damage, −1.4 with a damaged outer race. Over the speed v of the pitch circle, as both grow, it is a·D²/v.
 
     Parameters

@@ -1,6 +1,6 @@
 """What combs are by chance: the same comb at orders of the same record that no part of the bearing has.
 
-Nothing is trained and no threshold in decibels is set: a tone of the machine, a leaning spectrum or a short record
+Nothing is trained and no threshold in decibels is set: a tone of the machine, a sloping spectrum or a short record
 raise the null as they raise the fault's comb. The largest of many combs is distributed as extreme values are
 (E. J. Gumbel, *Statistics of Extremes*, 1958): of white noise the probabilities below came out within a factor 1.2
 of the share of records (``tests/python/test_diagnosis.py``).

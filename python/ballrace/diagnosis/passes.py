@@ -27,7 +27,7 @@ __all__ = ["AveragedPass", "Passes", "averaged", "passes_of"]
 _BANDS = (
     (1e3, 3e3), (2e3, 5e3), (4e3, 8e3), (6e3, 12e3), (10e3, 20e3), (1.5e3, 6e3), (3e3, 12e3), (5e3, 20e3),
 )  # fmt: skip
-"""Where blows ring [Hz]."""
+"""Where impacts ring [Hz]."""
 
 _FINEST = 0.05
 """Most that balls may go on within the time that a band resolves, the inverse of its width [ball diameters]."""
@@ -36,7 +36,7 @@ _WHITENED = 400.0
 """Width over which the spectrum is made flat [Hz]."""
 
 _CLIPPED = 0.995
-"""Quantile of an envelope above which it is cut, so that a few blows do not decide."""
+"""Quantile of an envelope above which it is cut, so that a few impacts do not decide."""
 
 _STEP, _SMOOTHED, _AROUND = 0.002, 0.012, 0.12
 """Step of arcs; widths of the running means that smooth the correlation and are taken off [ball diameters]."""
@@ -53,7 +53,7 @@ _COARSE, _BEFORE, _AFTER = 0.004, 0.15, 0.25
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Passes:
-    """The correlation of a record's blows with what follows them.
+    """The correlation of a record's impacts with what follows them.
 
     Attributes
     ----------

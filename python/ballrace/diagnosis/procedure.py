@@ -56,16 +56,16 @@ def diagnose(
     machine: Machine | None = None,
     seed: int = 0,
 ) -> Diagnosis:
-    """Say whether a race or a ball is damaged, nothing is, or the record cannot tell.
+    """Diagnose a bearing from a record: healthy, damaged with the parts, or undecided.
 
-    The record is prewhitened in two ways; in overlapping bands the squared envelope's spectrum is searched
-    for the combs of lines that faults of each part have. How high they stand is compared with a thousand combs
-    at orders of the same record that no part has, so that chance has a known rate, without training and without
-    a threshold in decibels. Lines that stand out accuse a part only where they are deep or blows stand out,
-    and, where the unit of the record is known, only where among simulated bearings such lines mean damage at odds
-    of twenty to one, or are stronger than in any healthy one of these. Lines that chance has in up to three times
-    as many records as ``false_alarm`` allows accuse a part where these odds speak against it. A record with blows
-    at no rate of the bearing, or too few turns to tell a race from the shaft, is not called healthy.
+    The record is prewhitened in two ways; in overlapping bands the squared envelope's spectrum is searched for the
+    combs of lines that faults of each part have. Their heights are compared with a thousand combs at orders of the
+    same record that no part has, so that the rate of false alarms is known, without training and without a
+    threshold in decibels. Lines that stand out count as damage only with a deep modulation or impacts that stand
+    out and, where the unit of the record is known, only where such lines mean damage at odds of twenty to one
+    among simulated bearings, or are stronger than in any healthy one. Lines that chance has in up to three
+    times as many records as ``false_alarm`` allows count at these odds. A record with impacts at no rate of the
+    bearing, or with too few turns to separate a race from the shaft, is not called healthy.
 
     Parameters
     ----------
@@ -77,9 +77,9 @@ def diagnose(
         A designation such as ``"6205-2RS/C3"``, a bearing of the catalogue, a scene, a row of one, or orders, as a
         mapping of ``ftf``, ``bpfo``, ``bpfi`` and ``bsf``. By default the scene of the record.
     speed_rpm : float, optional
-        Nominal speed of the inner ring, within ``speed_within`` [rev/min]; by default what the record knows, or 0
-        where an ``outer_rpm`` is given. Where orders or rates of a hub name the bearing, that of its rings against
-        each other, by default that of the rates.
+        Nominal speed of the inner ring, within ``speed_within`` [rev/min]; by default that of the record, or 0
+        where an ``outer_rpm`` is given. Where the bearing is given as orders or rates of a hub, the relative speed
+        of its rings, by default that of the rates.
     outer_rpm : float, optional
         Nominal speed of the outer ring [rev/min], as in hubs, idlers and planets; of the other sign where the
         rings turn in opposite ways. By default that of the scene, else the outer ring stands. Where both rings
@@ -89,15 +89,15 @@ def diagnose(
     column : str, optional
         Column of a record; by default ``outer.ay`` if there is one, else the first.
     unit : {"m/s^2", "g"}, optional
-        Unit, where the record does not tell it, as of an array. Without one the size of lines is not judged, and
-        lines without blows, or in a record without noise, are left open.
+        Unit, where the record has none, such as an array. Without one the strength of lines is not judged, and
+        lines without impacts, or in a record without noise, give no verdict.
     row : int, optional
-        Row of balls of a scene, from 0; by default all rows whose orders differ, and the verdict on the one that
-        is worst off (``bearing`` tells which; a note the others).
+        Row of balls of a scene, from 0; by default all rows whose orders differ, and the verdict on the one with
+        the strongest sign of damage (``bearing`` names it, a note the others).
     speed_within : float, optional
-        How far the speed may be off, as a part of it, 0 to 0.01; a tachometer's within 0.001, say. By default 0
-        where it is a run's own, else 0.01. Lines of a race whose order is nearly whole, such as 4.95, are those of
-        a slightly slower shaft in a short record: only a speed that is known better tells them apart.
+        Relative uncertainty of the speed, 0 to 0.01, such as 0.001 with a tachometer. By default 0 where it is a
+        run's own, else 0.01. In a short record, lines of a race whose order is nearly an integer, such as 4.95,
+        are also those of a slightly slower shaft: only a more accurate speed separates them.
     false_alarm : float
         Share of healthy records that may be called damaged, from 1e-6 to 0.2.
     exclude : iterable of float
@@ -108,7 +108,7 @@ def diagnose(
         Class of the machine, for the zone of ISO 20816-3: above 300 kW or from 15 to 300 kW, on a rigid or a
         flexible foundation.
     seed : int
-        Which combs the null has.
+        Seed of the null's combs.
 
     Returns
     -------
@@ -118,18 +118,18 @@ def diagnose(
     Raises
     ------
     SceneError
-        An argument is not usable; samples that are not finite; a speed or a bearing that is not given.
+        An argument is not usable, samples are not finite, or a speed or a bearing is missing.
     KeyError
         There is no such column.
 
     Examples
     --------
-    Blows at the rate of the inner race, half a percent of a period off, in noise:
+    Impacts at the rate of the inner race, with a scatter of half a percent of a period, in noise:
 
     >>> import ballrace as br, numpy as np
     >>> fs, shaft, rng = 16_000.0, 30.0, np.random.default_rng(1)
-    >>> blow = np.arange(650) + 0.005 * rng.normal(size=650)
-    >>> at = np.rint(blow * fs / (br.catalogue["6205"].orders.bpfi * shaft)).astype(int)
+    >>> impact = np.arange(650) + 0.005 * rng.normal(size=650)
+    >>> at = np.rint(impact * fs / (br.catalogue["6205"].orders.bpfi * shaft)).astype(int)
     >>> x = 0.3 * rng.normal(size=64_000)
     >>> x[at[at >= 0]] += 3.0 + 2.0 * np.cos(2 * np.pi * shaft * at[at >= 0] / fs)
     >>> found = br.diagnose(x, "6205", 1800.0, fs=fs)
@@ -182,7 +182,7 @@ def diagnose(
     ]
     verdict = decided(
         evidence, own, false_alarm, strong=strong, limits=limits, silent=not has_background(channel.x),
-        blows=found.envelopes.blows(limits.faint if limits else 0.0),
+        impacts=found.envelopes.impacts(limits.faint if limits else 0.0),
         wanting=wanting_of(channel, shaft.rate, kinematics, within),
     )  # fmt: skip
     deciding = bands.index(max((evidence[part] for part in ACCUSED), key=lambda one: one.z).band)

@@ -38,16 +38,16 @@ class Diagnosis:
     parts : tuple of {"outer_race", "inner_race", "ball"}
         What is damaged, the surest first; empty unless ``damaged``.
     why : str
-        What it rests on; where it is undecided, what would decide.
+        Reason for the verdict; where it is undecided, what would decide.
     evidence : mapping of str to Evidence
         Of ``outer_race``, ``inner_race``, ``ball`` and ``cage``; empty where the record allows none. The cage's
         line alone is no sign of damage.
     shaft : ShaftRate
         Rate of the shaft, and whether it comes from the record.
     severity : Severity or None
-        How much the machine shakes; None where the record allows no evidence.
+        Severity of the vibration; None where the record allows no evidence.
     width : Width
-        How wide the spall of a damaged race is, with an interval, or why that cannot be told.
+        How wide the spall of a damaged race is, with an interval, or why that is not known.
     false_alarm : float
         Share of healthy records that may be called damaged, as asked for.
     threshold : float
@@ -148,7 +148,7 @@ class Diagnosis:
         Parameters
         ----------
         reference : Signals, Measurement, Recording, Channel or array_like, shape (n,)
-            A record from when it was new.
+            A record of the machine in good condition.
         fs, column, unit
             As of :func:`ballrace.diagnose`.
 
@@ -156,7 +156,7 @@ class Diagnosis:
         -------
         Diagnosis
             The same, but for ``severity.change``: ratios to the reference, of crest factor and kurtosis in the
-            deciding band of this record. ``report`` tells them.
+            deciding band of this record. ``report`` includes them.
 
         Raises
         ------
@@ -186,7 +186,7 @@ class Diagnosis:
         Raises
         ------
         SceneError
-            The width of one cannot be told.
+            The width of one is not known.
         """
         from .size_picture import size_picture
 

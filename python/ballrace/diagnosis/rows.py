@@ -23,7 +23,7 @@ _RANK = {"damaged": 2, "undecided": 1, "healthy": 0}
 def judged_by_rows(
     scene: Scene, false_alarm: float, judge: Callable[[int, float], Diagnosis]
 ) -> Diagnosis:
-    """Return the verdict on the row that is worst off, with a note on the others.
+    """Return the verdict on the row with the strongest sign of damage, with a note on the others.
 
     Parameters
     ----------
@@ -41,7 +41,7 @@ def judged_by_rows(
     others = (f"{_named(rows)}: {found[rows[0]].verdict}" for rows in alike if rows is not worst)
     notes = [*chosen.notes, *others]
     if len(worst) > 1:
-        notes.append(f"{_named(worst)} have the same orders: which of them it is lines cannot tell")
+        notes.append(f"{_named(worst)} have the same orders: lines do not show which of them it is")
     return replace(chosen, bearing=f"{chosen.bearing}, {_named(worst)}", notes=tuple(notes))
 
 

@@ -1,4 +1,4 @@
-"""How much a machine shakes, by ISO 20816-3, and how impulsive the deciding band is."""
+"""How strong the vibration of a machine is, by ISO 20816-3, and how impulsive the deciding band is."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ _SLOW = 10.0
 
 @dataclass(frozen=True, kw_only=True)
 class Change:
-    """What has become of a vibration: the record over the reference.
+    """Change of a vibration: ratios of the record to the reference.
 
     Attributes
     ----------

@@ -58,9 +58,9 @@ def shaft_rate(
 ) -> ShaftRate:
     """Find the rate whose multiples stand highest in the spectrum and in the envelopes' spectra.
 
-    Within ``within`` of the nominal one, as a part of it. In a record of some 40 turns lines of an inner race at
-    4.95 times the shaft's rate, with the shaft's sidebands, are those of a shaft 1 % slower: only who knows the
-    speed better can tell them apart.
+    It lies within ``within`` of the nominal one, as a part of it. In a record of some 40 turns, lines of an inner
+    race at 4.95 times the shaft's rate, with the shaft's sidebands, are also those of a shaft 1 % slower: only a
+    more accurate speed separates them.
     """
     plain = line_spectrum(x, envelopes.shape[1])
     value = np.vstack([plain, envelopes])

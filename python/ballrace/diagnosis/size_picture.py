@@ -43,7 +43,7 @@ def _add_pass(fig: go.Figure, of: Sized | None, name: str, line: int) -> None:
 
     if of is None or of.averaged is None or of.width.value is None:
         why = "no width was looked for" if of is None else of.width.why
-        raise SceneError("width", "of " + name, f"one that can be told: {why}")
+        raise SceneError("width", "of " + name, f"one that is known: {why}")
     fig.add_trace(
         Scatter(
             x=1e3 * of.ball_diameter * of.averaged.arc, y=of.averaged.envelope, mode="lines",

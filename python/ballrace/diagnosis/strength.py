@@ -1,10 +1,10 @@
-"""How strong the vibration of a fault is, beside how significant: lines alone are no damage.
+"""How strong the vibration of a fault is, in addition to its significance: lines alone are no damage.
 
-A smooth bearing under load passes its balls through the load zone one by one and so has lines of the outer race
+In a smooth bearing under load the balls pass through the load zone one by one, which gives lines of the outer race
 (varying compliance), in a record without noise as significant as those of any spall; waves of a race modulate
-noise. What tells them from damage is their size. Of the squared envelope in a band, the part that comes at the
-fault's rate, as a root mean square of its first harmonics over its mean, is the depth of modulation; that part
-of the signal's power, as a root mean square, is the acceleration that comes at the fault's rate.
+noise. Damage differs from them by its strength. The root mean square of the squared envelope's first harmonics of
+the fault's rate in a band, over its mean, is the depth of modulation; the root mean square of that part of the
+signal's power is the acceleration at the fault's rate.
 """
 
 from __future__ import annotations
@@ -52,11 +52,11 @@ to 5 s, the damaged ones of ``hit-sm`` and CWRU 1.0 and more, spalled simulated 
 """
 
 _NOISY = 4.0
-"""Kurtosis below which no blows stand out: 3.2 to 3.4 in that healthy record, 5.3 and more in all damaged ones."""
+"""Kurtosis below which no impacts stand out: 3.2 to 3.4 in that healthy record, 5.3 or more in damaged ones."""
 
 
 _BLOWS = 5.0
-"""Kurtosis from which on blows need an explanation: noise that swells by a half with the shaft has 4.2."""
+"""Kurtosis from which on impacts need an explanation: noise modulated by a half with the shaft has 4.2."""
 
 _SMOOTH = 3.5
 """Kurtosis below which the lines of a record without a unit may be those of balls in the load zone.
@@ -75,7 +75,7 @@ Of ``hit-sm`` and CWRU it is 4 to 38 dB below; of silent simulated healthy beari
 
 @dataclass(frozen=True, kw_only=True)
 class Strength:
-    """What comes at a fault's rate.
+    """Strength of the vibration at a fault's rate.
 
     Attributes
     ----------
@@ -85,7 +85,7 @@ class Strength:
         Its power over that of the record.
     depth : float
         Largest depth of modulation in a band: root mean square of the squared envelope's lines over its mean.
-        Blows in silence have 1 and more, noise has next to nothing.
+        Impacts without noise have 1 and more, noise has almost 0.
     band : tuple of two floats
         That band [Hz].
     kurtosis : float
@@ -105,7 +105,7 @@ class Strength:
 
     @property
     def is_smooth(self) -> bool:
-        """Whether there are no blows at all, as of balls that pass through the load zone."""
+        """Whether there are no impacts at all, as of balls that pass through the load zone."""
         return self.kurtosis < _SMOOTH
 
 
@@ -133,8 +133,8 @@ class Envelopes:
         self.variance = float(np.var(x))
         self.rows = [band_envelope(spectrum, *band, x.size, fs) for band in bands]
 
-    def blows(self, faint: float) -> float | None:
-        """Return the largest kurtosis of a band where blows stand out; None of noise or below ``faint``."""
+    def impacts(self, faint: float) -> float | None:
+        """Return the largest kurtosis of a band where impacts stand out; None of noise or below ``faint``."""
         largest = max(map(self.kurtosis, range(len(self.bands))))
         loud = 0.5 * float(self.rows[-1].mean()) >= faint**2
         return largest if loud and largest >= _BLOWS else None
@@ -204,7 +204,7 @@ def limits_of(circle: float) -> Limits:
 
 
 def has_background(x: NDArray[np.float64]) -> bool:
-    """Whether there is noise between the blows, as in what was measured.
+    """Whether there is noise between the impacts, as in what was measured.
 
     Noise is judged by the fourth difference, which leaves next to nothing of what rings slowly, in pieces of 32
     samples: in the quietest two of a hundred it has as much power as white noise this far below the record.

@@ -78,7 +78,7 @@ def decided(
     strong: Sequence[Part],
     limits: Limits | None,
     silent: bool,
-    blows: float | None,
+    impacts: float | None,
     wanting: Sequence[str],
 ) -> Verdict:
     """Return the verdict.
@@ -97,8 +97,8 @@ def decided(
         Accelerations by which lines are judged; None where their strength is not known.
     silent : bool
         Whether the record has no background, as simulated ones have none.
-    blows : float or None
-        Kurtosis of the band where blows stand out; None where none do.
+    impacts : float or None
+        Kurtosis of the band where impacts stand out; None where none do.
     wanting : sequence of str
         What the record lacks for a statement that nothing is damaged.
     """
@@ -125,7 +125,7 @@ def decided(
     for one in doubted:
         if not own and not _looks_sound(one) and _not_sure(one, limits, silent) is None:
             return Verdict(verdict="damaged", parts=(one.part,), why=_supported(one))
-    unexplained = [] if own or blows is None else [_blows(blows)]
+    unexplained = [] if own or impacts is None else [_impacts(impacts)]
     likely = [one for one in ranked if one.part not in own and _is_likely(one)]
     needs = [
         *filter(None, open_.values()), *map(_doubt, doubted), *map(_hidden, filter(_is_hidden, ranked)),
@@ -157,7 +157,7 @@ def _looks_sound(one: Evidence) -> bool:
 
 
 def _of_damaged_ball(one: Evidence) -> bool:
-    """Whether there are blows of a ball, however faint: neither the load zone nor waves of races have its rate."""
+    """Whether there are impacts of a ball, however weak: neither load zone nor waves of races have its rate."""
     likely = one.ratio is not None and one.ratio < UNLIKELY[one.role]
     return one.part == "ball" and likely and not one.strength.is_smooth
 
@@ -197,8 +197,8 @@ def own_lines(
 
 
 def _lines_of(one: Evidence) -> str:
-    told = ", ".join(line.label for line in one.lines[:4]) or "lines"
-    return f"{NAMES[one.part]}: {told} stand out, which chance does in {_percent(one)} of records"
+    lines = ", ".join(line.label for line in one.lines[:4]) or "lines"
+    return f"{NAMES[one.part]}: {lines} stand out, as by chance in {_percent(one)} of records"
 
 
 def _supported(one: Evidence) -> str:
@@ -209,8 +209,8 @@ def _shallow(one: Evidence) -> str:
     depth, kurtosis = 100.0 * one.strength.depth, one.strength.kurtosis
     return (
         f"a record from when it was new, or another place to measure: lines of the {NAMES[one.part]} are "
-        f"there, but modulate the vibration by {depth:.0f} % only and no blows stand out "
-        f"(kurtosis {kurtosis:.1f}), which waves of a race do, too"
+        f"there, but modulate the vibration by {depth:.0f} % only and no impacts stand out "
+        f"(kurtosis {kurtosis:.1f}), as from waves of a race"
     )
 
 
@@ -226,20 +226,21 @@ def _like_sound(one: Evidence) -> str:
     return (
         f"a record from when it was new: lines of the {NAMES[one.part]} carry "
         f"{one.strength.acceleration:.2g} m/s², which sound bearings may have, too: among simulated ones they are "
-        f"{_odds(one):.2g} times likelier with it damaged, and {1.0 / UNLIKELY[one.role]:.0f} times are asked for"
+        f"{_odds(one):.2g} times likelier with it damaged, where {1.0 / UNLIKELY[one.role]:.0f} times are required"
     )
 
 
 def _of_no_size(one: Evidence) -> str:
     return (
-        f"the record's unit and a bearing with dimensions: lines of the {NAMES[one.part]} are there, but "
-        "without blows, or in a record without noise, a loaded healthy bearing has such lines, too: size tells"
+        f"the record's unit and a bearing with dimensions, to judge the strength of lines: those of the "
+        f"{NAMES[one.part]} stand out, but without impacts, or in a record without noise, those of a loaded "
+        "healthy bearing do, too"
     )
 
 
-def _blows(kurtosis: float) -> str:
+def _impacts(kurtosis: float) -> str:
     return (
-        f"the exact speed, the right bearing, or a longer record: blows stand out (kurtosis {kurtosis:.0f}), "
+        f"the exact speed, the right bearing, or a longer record: impacts stand out (kurtosis {kurtosis:.0f}), "
         "but at no rate of this bearing"
     )
 
@@ -247,7 +248,7 @@ def _blows(kurtosis: float) -> str:
 def _faint(one: Evidence, faint: float) -> str:
     return (
         f"lines of the {NAMES[one.part]} are there, but carry {one.strength.acceleration:.2g} m/s² where damage "
-        f"has more than {faint:.2g}: what a loaded healthy bearing shows, too"
+        f"has more than {faint:.2g}: a loaded healthy bearing has such lines, too"
     )
 
 
@@ -261,7 +262,7 @@ def _percent(one: Evidence) -> str:
 def _doubt(one: Evidence) -> str:
     return (
         f"another or a longer record: lines of the {NAMES[one.part]} come by chance in {_percent(one)}, "
-        "too often for a verdict and too seldom to be cleared"
+        "too often to call it damaged and too seldom to call it healthy"
     )
 
 

@@ -1,4 +1,4 @@
-"""How wide a spall is, from the spacing of the two events of a pass and what runs of the model say belongs to it.
+"""Width of a spall, from the spacing of the two events of a pass and simulated spalls of known width.
 
 The second event comes when the ball has left the first edge by the width less what the contact bridges, some
 twentieth of a ball's diameter, which load, speed, edges and clearance move. How much it was in the records of the
@@ -49,13 +49,13 @@ class Width:
     part : {"outer_race", "inner_race"} or None
         Where it is; None where no race is damaged.
     value : float or None
-        Width [m]; None where it cannot be told.
+        Width [m]; None where it is not known.
     interval : tuple of two floats, or None
-        What holds 90 % of such spalls of simulated bearings [m].
+        Interval that holds the widths of 90 % of such spalls in simulated bearings [m].
     spacing : float or None
         Arc between the two events [m], where they are clear.
     why : str
-        What it rests on, or why it cannot be told.
+        Reason for the value, or why it is not known.
     """
 
     part: Part | None
@@ -75,8 +75,8 @@ class Sized:
 
 
 def untold(why: str, part: Part | None = None) -> Sized:
-    """Return that a width cannot be told."""
-    width = Width(part=part, value=None, interval=None, spacing=None, why=f"cannot be told: {why}")
+    """Return a width that is not known, with the reason."""
+    width = Width(part=part, value=None, interval=None, spacing=None, why=f"not known: {why}")
     return Sized(width=width)
 
 
@@ -107,7 +107,8 @@ def sized(
     found = passes_of(x, fs, speed)
     if found is None:
         return untold(
-            "no band of the record is as fast as a pass: log faster, or turn slower", one.part
+            "no band of the record resolves a pass: raise the sampling rate, or lower the speed",
+            one.part,
         )
     if not _stands_out(found.height, found.above, found.bands, found.agreeing):
         return untold(_unclear(row.ball_diameter), one.part)

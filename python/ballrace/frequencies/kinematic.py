@@ -30,7 +30,7 @@ class Orders:
     Attributes
     ----------
     ftf : float
-        Cage, the fundamental train frequency; seen from where the loads stand.
+        Cage, the fundamental train frequency, relative to the loads.
     bpfo : float
         Balls passing a place on the outer race.
     bpfi : float
@@ -38,8 +38,8 @@ class Orders:
     bsf : float
         Spin of a ball in the cage; a defect on a ball meets a race twice a turn.
     inner, outer : float
-        Turns of the rings past the loads, at which hits on their races swell: those of the shaft are 1, and 0 of
-        an outer ring that stands.
+        Turns of the rings past the loads, which modulate the impacts on their races: 1 for the inner and 0 for the
+        outer ring where the outer ring stands.
 
     All are rates, from 0 up, whichever way rings, cage and balls turn.
     """
@@ -71,7 +71,7 @@ class Orders:
 
         Examples
         --------
-        A place of the outer race is met as often, and goes through the load once a turn; the cage is faster:
+        Balls pass a place of the outer race as often, which goes through the load once a turn; the cage is faster:
 
         >>> hub = orders(9, 7.94e-3, 39.04e-3).turned(-1.0)
         >>> round(hub.bpfo, 4), round(hub.ftf, 4), hub.inner, hub.outer

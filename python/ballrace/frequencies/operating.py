@@ -44,8 +44,8 @@ class FaultFrequencies:
     Attributes
     ----------
     shaft : float
-        Turns of the rings against each other, ``|f_i − f_o|`` [Hz]: the shaft's where the outer ring stands, those
-        of a hub where the inner one does, and of rings that turn in opposite ways the sum of both.
+        Relative turns of the rings, ``|f_i − f_o|`` [Hz]: those of the shaft where the outer ring stands, of a
+        hub where the inner one does, and the sum of both where the rings turn in opposite directions.
     ftf, bpfo, bpfi, bsf : float
         Cage in space, ball passes on the outer and the inner race, spin of a ball in the cage [Hz]. A defect on a
         ball meets the races at twice ``bsf``; in a run, whose balls spin about the axis only, at BSF/cos α or
@@ -53,8 +53,8 @@ class FaultFrequencies:
     contact_angle : float
         The angle under load at rest [rad].
     slip : float or None
-        How far the cage stays behind rolling at this angle, as a share of it; negative where it is ahead, None
-        where it was not measured.
+        How much slower the cage is than by rolling at this angle, as a share of it; negative where it is faster,
+        None where it was not measured.
     inner, outer : float
         Turns of the inner and of the outer ring in space, f_r and f_o [Hz].
     """
@@ -92,15 +92,16 @@ def fault_frequencies(
     of : str, Bearing, Scene or Signals
         A designation of the catalogue or a bearing of it: at the nominal contact angle, since no load is given. A
         scene: at the speeds of cage and balls at which friction at both races under its load, the oil's drag and
-        gyroscopic moments balance; without friction of balls that roll at the contact angles of both races.
-        Signals of a run of a turn and more: the means that the run measured, of the cage by all balls of the row,
-        and of the spin where balls spin freely. Of older files by a probe that records the motion of a ball.
+        gyroscopic moments balance; without friction, those of balls that roll at the contact angles of both races.
+        Signals of a run of a turn and more: mean speeds measured in the run, of the cage over all balls of the
+        row, and of the spin where balls spin freely; from older files by a probe that records the motion of a
+        ball.
     speed_rpm : float, optional
         Speed of the inner ring [rev/min]; by default that of the scene, if it is given and constant. Of a bearing
         without a scene it is 0 where an ``outer_rpm`` is given.
     outer_rpm : float, optional
-        Speed of the outer ring [rev/min], of the other sign where the rings turn in opposite ways; by default that
-        of the scene, or 0.
+        Speed of the outer ring [rev/min], of the other sign where the rings turn in opposite directions; by
+        default that of the scene, or 0.
     row : int
         Row of balls, from 0.
     operating : bool
@@ -130,7 +131,7 @@ def fault_frequencies(
     >>> bool(loaded.bpfo > found.bpfo), bool(loaded.bpfi < found.bpfi)
     (True, True)
 
-    A hub: the inner ring stands, and hits on the outer race swell with its turns.
+    A hub: the inner ring stands, and the turns of the outer ring modulate the impacts on its race.
 
     >>> hub = br.fault_frequencies("6205", outer_rpm=1797.0)
     >>> round(hub.bpfo, 2), round(hub.ftf, 2), hub.inner, hub.outer
@@ -221,7 +222,7 @@ def spin_of(scene: Scene, rates: FaultFrequencies, row: int = 0) -> tuple[float,
 
     A ball of the model spins about the axis only: against the cage at BSF/cos α. At the contact angle it touches
     the outer race R sin α to one side of its middle and the inner race as far to the other, so that a defect
-    meets both only where it reaches from track to track; a real ball tumbles, and shows its defect to both.
+    meets both only where it reaches from track to track; a real ball tumbles, and its defect meets both.
 
     Parameters
     ----------
@@ -253,7 +254,7 @@ def spin_of(scene: Scene, rates: FaultFrequencies, row: int = 0) -> tuple[float,
         return None
     order = rates.orders.bsf / math.cos(rates.contact_angle)
     track = scene.rows[row].ball_diameter / 2.0 * math.sin(abs(rates.contact_angle))
-    # Where the place is not told, it is that of one contact.
+    # Without a given place it is that of one contact.
     reach = [
         d.length / 2.0 - abs(track if d.axial_offset == "contact" else d.axial_offset) for d in own
     ]

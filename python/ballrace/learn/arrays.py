@@ -1,4 +1,4 @@
-"""Arrays of a table of windows, as what learns wants them."""
+"""Arrays of a table of windows, as learning libraries take them."""
 
 from __future__ import annotations
 

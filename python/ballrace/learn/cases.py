@@ -1,4 +1,4 @@
-"""The cases of a recipe: scenes, and rows of a table of what each bearing has of its own."""
+"""The cases of a recipe: scenes, and rows of a table with what differs between bearings."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ LABELS = ("bearing_id", "part", "shape", "size_mm")
 """Columns of the table that are no fields of a scene; ``shape`` is ``none``, ``pit`` or ``spall``."""
 
 _SLIP_BY_BALLS = 1.2e4
-"""Scatter of the times between blows over that of the balls' diameters [1/m].
+"""Scatter of the times between impacts over that of the balls' diameters [1/m].
 
 Measured of a 6205 under 300 N and 80 N of thrust (docs/campaigns.md): 0.23 to 0.37 % at 0.2 µm, 0.44 to 0.59 % at
 0.5 µm, both with 0.2 mm of play; more needs more play as well, 0.96 to 1.14 % at 0.83 µm and 0.33 mm, 2.0 to 2.2 %

@@ -1,4 +1,4 @@
-"""What records have besides fault lines, by which simulated ones may be told from measured ones.
+"""Properties of records besides fault lines, by which simulated and measured ones may differ.
 
 ===================  ==========================================================================================
 ``spectrum <k>``     level of the k-th of six equal bands up to half the sampling rate over that of the record [dB]
@@ -11,7 +11,7 @@
 ``least kurtosis``   smallest kurtosis of six bands
 ===================  ==========================================================================================
 
-What the path to the sensor decides, housing, machine and sensor, is ``spectrum``.
+``spectrum`` depends on the path to the sensor: housing, machine and sensor.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Records of a recipe: simulated, measured by several chains, as many of each class that was met."""
+"""Records of a recipe: simulated, measured by several chains, the same number of each class that was met."""
 
 from __future__ import annotations
 
@@ -95,7 +95,7 @@ class Simulated:
 
         As of :meth:`ballrace.campaigns.Campaign.windows`, with ``label`` (the class, by what was met),
         ``bearing_id``, ``shape``, ``size_mm`` and ``shaft`` [Hz]. :func:`ballrace.learn.examples` makes arrays of
-        it, :func:`ballrace.bearing_split` parts it by bearing.
+        it, :func:`ballrace.bearing_split` splits it by bearing.
         """
         heard = self.campaign.windows(
             self.chains,
@@ -156,12 +156,12 @@ def dataset(
     threads: int | None = None,
     progress: bool | Callable[[Progress], object] = True,
 ) -> Simulated:
-    """Simulate records of a recipe: as many of each class, a run of a bearing of its own each.
+    """Simulate records of a recipe: the same number of runs for each class, each of another bearing.
 
-    A campaign (:func:`ballrace.campaign`): called again after a kill, or with more for each class, it runs only
-    what is missing. A class is what was *met*: faults that no loaded contact came to do not count, and further
-    cases take their place. Bearing k has one set of surfaces, balls and clearance, and is once healthy and once
-    damaged in each way.
+    It is a campaign (:func:`ballrace.campaign`): called again after a kill, or with more runs for each class, it
+    runs only what is missing. The class of a run is the fault that a loaded contact *met*: runs in which none met
+    the fault do not count, and further cases take their place. Bearing k has one set of surfaces, balls and
+    clearance, and is once healthy and once damaged in each way.
 
     Parameters
     ----------
@@ -178,14 +178,14 @@ def dataset(
     window : float
         Length of a record, at least five turns at the lowest speed [s].
     per_case : int
-        How many of the machines, drawn by chance, measure each run: so many records come of it.
+        How many of the machines, drawn by chance, measure each run, which gives as many records.
     seed : int
-        What everything is drawn from.
+        Seed of everything that is drawn.
     threads : int, optional
         As of :func:`ballrace.campaign`.
     progress : bool or callable
-        As of :func:`ballrace.campaign`; with True the time and the records an hour that are to be expected, from a
-        run of each class, are told before it starts.
+        As of :func:`ballrace.campaign`; with True the expected time and records an hour, from a run of each class,
+        are printed before it starts.
 
     Raises
     ------
@@ -275,7 +275,7 @@ class _Making:
         return done, pl.concat([cases.filter(part=_part(kind)).head(self.count) for kind in wanted])
 
     def tell(self, per_case: int) -> None:
-        """Write how long it takes, as far as one run of each class tells."""
+        """Write how long it takes, estimated from one run of each class."""
         rows = self._rows(dict.fromkeys(self.kinds, self.count))
         whole = self._campaign(rows, dry_run=True)
         if not whole.missing:

@@ -1,4 +1,4 @@
-"""A classifier of records that has learnt from simulated ones."""
+"""A classifier of records, trained on simulated ones."""
 
 from __future__ import annotations
 
@@ -40,20 +40,20 @@ _SEEN = 0.95
 
 @dataclass(frozen=True, kw_only=True)
 class Judgement:
-    """What a model says of a record.
+    """Verdict of a model on a record.
 
     Attributes
     ----------
     verdict : str
-        The class that most pieces have; ``shows no lines`` where that is a fault, and yet no lines of any fault
-        stand higher than those of healthy bearings: there is nothing to know it by.
+        The class that most pieces have; ``shows no lines`` where that is a fault although no lines of any fault
+        are higher than those of healthy bearings, so that the class has no support.
     probabilities : dict of str to float
         Mean probability of each class over the pieces.
     votes : dict of str to int
         Pieces by their class.
     shows_lines : bool
-        Whether lines of a fault stand higher, in the mean over the pieces, than in 95 % of the healthy records
-        that it has learnt from.
+        Whether lines of a fault are higher, in the mean over the pieces, than in 95 % of the healthy records
+        that it was trained on.
     """
 
     verdict: str
@@ -72,11 +72,11 @@ class Judgement:
 
 
 class Diagnoser(_base.ClassifierMixin, _base.BaseEstimator):  # type: ignore[misc, name-defined]
-    """Names the fault of a record, by boosted trees on features that know neither level nor speed.
+    """Classifies the fault of a record by boosted trees, on features that depend neither on level nor on speed.
 
-    A classifier of scikit-learn's conventions. With ``groups`` it fits a model for each of some folds, no
-    bearing on both sides, whose probabilities it averages: what each says of the bearings that it has not seen
-    is the held-out accuracy.
+    A classifier of scikit-learn's conventions. With ``groups`` it fits a model for each of some folds, with no
+    bearing in both parts, and averages their probabilities; the held-out accuracy is that of each model on the
+    bearings that it was not trained on.
 
     Parameters
     ----------
@@ -86,14 +86,14 @@ class Diagnoser(_base.ClassifierMixin, _base.BaseEstimator):  # type: ignore[mis
         Another model, with ``predict_proba``; by default ``HistGradientBoostingClassifier`` with balanced classes
         and few leaves. ``ExtraTreesClassifier`` does better across bearings (see the guide, Transfer).
     false_alarm : float or None
-        Share of the healthy records of bearings not seen that may be called damaged, above 0 and below 1: where
-        more were, what is not sure enough is called healthy. Without ``groups`` or a class ``healthy``, or with
-        None, the most probable class is named.
+        Share of the healthy records of held-out bearings that may be called damaged, above 0 and below 1: the
+        threshold of ``healthy`` is lowered until the share is met. Without ``groups`` or a class ``healthy``, or
+        with None, the most probable class is returned.
     turns : float
-        Length of the pieces that :meth:`diagnose` cuts, in turns of the shaft: about that of the records it has
-        learnt from (``Simulated.turns``).
+        Length of the pieces that :meth:`diagnose` cuts, in turns of the shaft: about that of the records it was
+        trained on (``Simulated.turns``).
     fs : float
-        Sampling rate of the records that it has learnt from; denser ones are brought down to it [Hz].
+        Sampling rate of the records that it was trained on, to which others are decimated [Hz].
     folds : int
         Number of folds.
     seed : int
@@ -143,7 +143,7 @@ class Diagnoser(_base.ClassifierMixin, _base.BaseEstimator):  # type: ignore[mis
         self.seed = seed
 
     def fit(self, X: Any, y: Any, groups: ArrayLike | None = None) -> Diagnoser:
-        """Learn from features, classes and, if told, bearings.
+        """Train on features, classes and, if given, bearings.
 
         Parameters
         ----------
@@ -172,7 +172,7 @@ class Diagnoser(_base.ClassifierMixin, _base.BaseEstimator):  # type: ignore[mis
         self.classes_, truth = np.unique(y, return_inverse=True)
         if self.classes_.size < 2:
             raise ValueError(
-                f"Diagnoser wants two classes and more, and there is one class: {self.classes_[0]!r}"
+                f"Diagnoser needs at least two classes, and there is one class: {self.classes_[0]!r}"
             )
         self.models_, self.held_out_accuracy_, self.threshold_ = [], np.nan, np.inf
         self.confusion_ = np.zeros((self.classes_.size,) * 2, dtype=int)
@@ -223,7 +223,7 @@ class Diagnoser(_base.ClassifierMixin, _base.BaseEstimator):  # type: ignore[mis
         Raises
         ------
         SceneError
-            An argument is not usable, or the features are not those that it has learnt from.
+            An argument is not usable, or the features are not those that it was trained on.
         KeyError
             There is no such column.
         """

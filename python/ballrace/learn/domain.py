@@ -1,4 +1,4 @@
-"""What tells simulated records from a measured one, and what of it lies outside of what was simulated."""
+"""Features that separate simulated records from a measured one, and those outside of the simulated range."""
 
 from __future__ import annotations
 
@@ -31,17 +31,17 @@ _BETRAYING = 10
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class DomainReport:
-    """How well simulated and measured records can be told apart.
+    """How well features separate simulated and measured records.
 
     Attributes
     ----------
     auc : float
-        Area under the curve of a random forest that tells them apart, on pieces that it has not seen: 0.5 not
-        at all, 1 always.
+        Area under the ROC curve of a random forest that separates them, on held-out pieces: 0.5 not at all, 1
+        always.
     auc_without_path : float
-        The same without the shape of the spectrum, which housing and machine decide.
+        The same without the shape of the spectrum, which housing and machine determine.
     features : polars.DataFrame
-        A line a feature, the most telling first: ``feature``, ``auc`` (of it alone, either way round),
+        A row for each feature, the most separating first: ``feature``, ``auc`` (of it alone, in either direction),
         ``simulated`` and ``measured`` (medians), ``lowest`` and ``highest`` (99 of 100 simulated records are
         above and below) and ``outside`` (share of the measured pieces beyond these).
     """
@@ -52,12 +52,12 @@ class DomainReport:
 
     @property
     def betraying(self) -> tuple[str, ...]:
-        """The ten features that betray the simulation most, the worst first."""
+        """The ten features that separate simulation and measurement most, the worst first."""
         return tuple(self.features["feature"].head(_BETRAYING))
 
     @property
     def outside(self) -> tuple[str, ...]:
-        """Features of which half of the measured pieces lie outside of what was simulated: add to the recipe."""
+        """Features of which half of the measured pieces lie outside of the simulated range: widen the recipe."""
         return tuple(self.features.filter(pl.col("outside") > 0.5)["feature"])
 
     def __str__(self) -> str:
@@ -67,7 +67,7 @@ class DomainReport:
             table = str(self.features.head(_BETRAYING))
         beyond = ", ".join(self.outside) or "nothing"
         return (
-            f"told apart with an AUC of {self.auc:.3f}, without the path {self.auc_without_path:.3f}\n{table}\n"
+            f"separated with an AUC of {self.auc:.3f}, without the path {self.auc_without_path:.3f}\n{table}\n"
             f"outside of what was simulated: {beyond}"
         )
 
@@ -98,7 +98,7 @@ def domain_report(
     Returns
     -------
     DomainReport
-        Areas under the curve, and the features that betray.
+        Areas under the ROC curve, and the features that separate.
 
     Raises
     ------
@@ -125,7 +125,7 @@ def domain_report(
 def marks_of(
     records: Sequence[Channel], lines: EnvelopeLines
 ) -> tuple[list[str], NDArray[np.float64]]:
-    """Return names and values of the features by which records may be told apart, shape (records, features)."""
+    """Return names and values of the features that are compared, shape (records, features)."""
     found = np.hstack([lines.fit_transform(records), [character_of(each) for each in records]])
     return [*map(str, lines.get_feature_names_out()), *NAMES], found
 

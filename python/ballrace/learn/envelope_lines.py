@@ -27,7 +27,7 @@ _checks = needed("sklearn.utils.validation", "ballrace.learn", extra="learn")
 
 
 class EnvelopeLines(_base.TransformerMixin, _base.BaseEstimator):  # type: ignore[misc, name-defined]
-    """How high the envelope lines of each fault stand, with moments and, if wanted, the envelope's orders.
+    """Heights of the envelope lines of each fault, with moments and, on request, the envelope's orders.
 
     A transformer of scikit-learn's conventions. All features are ratios or levels in decibels, at orders of the
     shaft: they change neither with the unit nor, as far as an envelope can be free of it, with the housing and the
@@ -42,22 +42,22 @@ class EnvelopeLines(_base.TransformerMixin, _base.BaseEstimator):  # type: ignor
     ``order <o>``         highest level within a step of the envelope's orders, a mean over bands [dB]
     ====================  =====================================================================================
 
-    Parts are ``outer_race``, ``inner_race``, ``ball`` and ``cage``. What the first two rows mean stands in
-    :mod:`ballrace.diagnosis`. A record that is too short for a feature, or silent, has 0 there; lines of a fault
-    want ten turns of the shaft and more.
+    Parts are ``outer_race``, ``inner_race``, ``ball`` and ``cage``; :mod:`ballrace.diagnosis` describes the first
+    two rows. A record that is too short for a feature, or silent, has 0 there; lines of a fault need at least ten
+    turns of the shaft.
 
     Parameters
     ----------
     bearing : str, Bearing, Scene, Row, Orders, FaultFrequencies or mapping, optional
-        As of :func:`ballrace.diagnose`. None: whichever bearing the records are of, where something that knows it
-        uses these features (:meth:`ballrace.learn.Simulated.features`, :class:`ballrace.learn.Diagnoser`).
+        As of :func:`ballrace.diagnose`. None: that of the records, in :meth:`ballrace.learn.Simulated.features`
+        and :class:`ballrace.learn.Diagnoser`.
     fs : float, optional
-        Sampling rate of arrays [Hz]; records know theirs.
+        Sampling rate of arrays [Hz]; records have their own.
     speed_rpm : float, optional
-        Speed of the inner ring in arrays, and in records that do not know theirs [rev/min]; where orders or rates
-        of a hub name the bearing, that of its rings against each other.
+        Speed of the inner ring for arrays, and for records without one [rev/min]; where the bearing is given as
+        orders or rates of a hub, the relative speed of its rings.
     highest : float, optional
-        Highest order of the envelope's spectrum that is a feature; by default there are none of it.
+        Highest order of the envelope's spectrum that is a feature; by default its orders are no features.
     step : float
         Step of these orders.
     row : int
@@ -100,7 +100,7 @@ class EnvelopeLines(_base.TransformerMixin, _base.BaseEstimator):  # type: ignor
         Parameters
         ----------
         X : array_like, shape (n, length), or sequence of Signals, Measurement, Recording or Channel
-            Windows, all at ``fs`` and ``speed_rpm``, or records that know theirs.
+            Windows, all at ``fs`` and ``speed_rpm``, or records.
         y : ignored
             For scikit-learn.
 
@@ -135,7 +135,7 @@ class EnvelopeLines(_base.TransformerMixin, _base.BaseEstimator):  # type: ignor
 
     def __sklearn_tags__(self) -> Any:
         tags = super().__sklearn_tags__()
-        # Arrays do not tell their sampling rate: without one only records are taken.
+        # Arrays have no sampling rate: without one only records are taken.
         tags.input_tags.two_d_array = self.fs is not None and self.speed_rpm is not None
         return tags
 

@@ -1,4 +1,4 @@
-"""A record in pieces as long, and as densely sampled, as those that a model has learnt from."""
+"""A record in pieces of the length and sampling rate that a model was trained on."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What bearings are simulated to learn from: ranges of operation, faults, surfaces and scatter."""
+"""Recipe of simulated training data: ranges of operation, faults, surfaces and scatter."""
 
 from __future__ import annotations
 
@@ -37,11 +37,11 @@ _FAULTS = {"outer": (0.15, 3.0), "inner": (0.15, 3.0), "ball": (0.2, 2.0)}
 
 @dataclass(frozen=True)
 class Recipe:
-    """What is drawn for every simulated bearing: a set to learn from, in one place.
+    """Ranges from which each simulated bearing of a training set is drawn.
 
-    A range is a pair of numbers, between which each case draws its own, evenly, fault sizes and slip on a
-    logarithmic scale; one number is the same for all. What the defaults and the fixed ranges come from stands in
-    the guide (`From a campaign to a trained model`).
+    A range is a pair of numbers, between which each case draws its own, uniformly, fault sizes and slip on a
+    logarithmic scale; one number is the same for all. The guide gives the sources of the defaults and the fixed
+    ranges (`From a campaign to a trained model`).
 
     Attributes
     ----------
@@ -54,19 +54,19 @@ class Recipe:
     axial_load : float or pair of float, optional
         Load along the axis, of either sign [N]; by default up to a fifth of the largest radial load either way.
     clearance : {"scatter", "C2", "CN", "C3", "C4", "C5"} or float
-        ``"scatter"``: even from none to the largest of the class that the designation says (else CN), since fits
-        and warmth take some; one clearance for all as of :func:`ballrace.bearing`.
+        ``"scatter"``: uniform from 0 to the largest of the class in the designation (else CN), since fits and heat
+        reduce it; or one clearance for all, as of :func:`ballrace.bearing`.
     faults : mapping of {"outer", "inner", "ball"} to pair of float
         Smallest and largest size of the faults of each kind, the extent along rolling [mm]: a pit where it is
-        smaller than its contact, else a spall (on a ball a cap). What is left out is no class.
+        smaller than its contact, else a spall (on a ball a cap). A kind that is left out is no class.
     surfaces : {"as_made", "smooth"}
         ``"as_made"``: races and balls have a texture (:class:`ballrace.scene.Texture`), of 0.2 to 5 nm at order 30
         with a slope of 1.5 to 2.5.
     slip : float, pair of float or None
-        How unevenly balls follow each other: standard deviation of the times between blows of a fault on the
-        outer race, over their mean, up to 0.02. It comes from balls of unlike diameters in a cage with play: of a
-        6205 0.5 µm of standard deviation in 0.2 mm for 5e-3, what balls of grade 10 have at most (ISO 3290-1);
-        record 130 has 7e-3. None: equal balls in a cage as it is.
+        Scatter of the balls' spacing: standard deviation of the times between impacts of a fault on the outer
+        race, over their mean, up to 0.02. It is produced by balls of different diameters in a cage with play: for
+        5e-3 in a 6205, a standard deviation of 0.5 µm, at most that of balls of grade 10 (ISO 3290-1), and a play
+        of 0.2 mm. Record 130 has 7e-3. None: equal balls in the scene's cage.
 
     Raises
     ------

@@ -35,16 +35,16 @@ def force(x: float = 0.0, y: float = 0.0, z: float = 0.0, *, at: float) -> Load:
 
 
 def belt(pull: float, *, at: float, angle: float = -0.5 * math.pi) -> Load:
-    """Return the pull of a belt on a shaft, both strands together.
+    """Return the pull of a belt on a shaft.
 
     Parameters
     ----------
     pull : float
-        Force on the shaft, of both strands [N], above 0.
+        Force of both strands on the shaft [N], above 0.
     at : float
         Axial place of the pulley's middle [m].
     angle : float
-        Where it pulls to [rad]; by default down.
+        Direction of the pull [rad]; by default down.
 
     Raises
     ------
@@ -82,7 +82,7 @@ def gear(
     at : float
         Axial place of the middle of its width [m].
     angle : float
-        Where the other gear meets it [rad].
+        Direction from the shaft's axis to the mesh [rad].
     pressure_angle : float
         Normal pressure angle α_n [rad].
     helix_angle : float

@@ -42,14 +42,14 @@ def pair(
     name : str or Bearing
         A single row angular contact bearing, such as ``"7208 BECBP"``.
     arrangement : {"back_to_back", "face_to_face", "tandem"}
-        How they stand. Back to back they are stiff against tilting, face to face they give way; both hold thrust
-        either way. In tandem they share thrust towards +z, and need it.
+        Arrangement. Back to back they are stiff against tilting, face to face compliant; both take thrust in
+        either direction. In tandem they share thrust towards +z, and need it.
     preload : float
-        Axial force of each on the other at rest and without load [N], from 0; in tandem there is none.
+        Axial force between the bearings at rest and without load [N], from 0; in tandem 0.
     radial_load : float, optional
         Load on the shaft along -y [N]; by default a tenth of the static load rating of one.
     axial_load : float, optional
-        Load on the shaft along +z [N]; by default none, in tandem 1.22 times what holds them together.
+        Load on the shaft along +z [N]; by default 0, in tandem 1.22 times the least that holds them together.
     at : float
         Axial place of the radial load [m].
     speed_rpm, outer_rpm, housing
@@ -58,7 +58,7 @@ def pair(
     Raises
     ------
     SceneError
-        The bearing is none of angular contact, or an argument is not usable.
+        The bearing is not an angular contact bearing, or an argument is not usable.
     EquilibriumError
         There is no equilibrium under the preload.
 

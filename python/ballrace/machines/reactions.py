@@ -18,7 +18,7 @@ __all__ = ["Reaction", "reactions"]
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Reaction:
-    """What a row puts on the inner ring, or the shaft.
+    """Force and moment of a row on the inner ring, or the shaft.
 
     Attributes
     ----------
@@ -29,7 +29,7 @@ class Reaction:
     force : ndarray, shape (3,)
         Force along x, y, z [N].
     moment : ndarray, shape (3,)
-        Moment about the row's place on the shaft's axis [N m]: a row that the shaft tilts holds against it.
+        Moment about the row's place on the shaft's axis [N m], by which a row resists tilting of the shaft.
     largest_load : float
         Load of the most loaded ball [N].
     """

@@ -82,26 +82,27 @@ def shaft(
     Parameters
     ----------
     bearings : sequence of (str or Bearing, float) or (str or Bearing, float, int)
-        Names as of :func:`ballrace.bearing`, and axial places of their middles [m]; by their widths they may touch
-        and not overlap. Of angular contact bearings of one row also
-        the side: +1 takes thrust on the shaft towards +z, -1 towards -z.
+        Names as of :func:`ballrace.bearing`, and axial places of their middles [m]; bearings may touch but not
+        overlap. For angular contact bearings of one row also the side: +1 takes thrust on the shaft towards +z,
+        -1 towards -z.
     speed_rpm : float, optional
         Speed of the shaft [rev/min]; by default 1500, and 0 where the outer rings turn.
     outer_rpm : float, optional
         Speed of all outer rings with their housing [rev/min], as in wheel hubs, idlers and sheaves on an axle; by
-        default they stand. Its mount stays where it is.
+        default they stand. The housing's mount does not turn.
     masses : sequence of (float, float) or (float, float, float)
-        What sits on the shaft: mass [kg], axial place [m], and the diameter of a disc [m] (without: a point).
+        Masses on the shaft: mass [kg], axial place [m], and the diameter of a disc [m] (without: a point).
     unbalances : sequence of (float, float) or (float, float, float)
         Mass times eccentricity [kg m], axial place [m], and angle on the shaft [rad] (without: 0).
     loads : mapping of str to Load
-        Loads by name, as :func:`ballrace.machines.belt`, ``gear`` and ``force`` make them. Gravity acts besides.
+        Loads by name, as :func:`ballrace.machines.belt`, ``gear`` and ``force`` make them, in addition to gravity.
     defects : Defect, or mapping of str to Defect
         Defects by name, or one alone; their ``row`` counts the rows in the order of the bearings, from 0.
     lubricant, temperature_c
         As of :func:`ballrace.bearing`.
     housing : {"pedestal"} or Pedestal
-        One mass on a mount with all outer rings; ``"pedestal"``: the pillow blocks of all bearings together.
+        Housing of all outer rings, one mass with them on a mount; ``"pedestal"``: the pillow blocks of all
+        bearings together.
 
     Returns
     -------

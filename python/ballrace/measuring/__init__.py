@@ -1,8 +1,8 @@
-"""A measuring chain: what lies between a ring that shakes and the numbers in a file.
+"""A measuring chain: what lies between a vibrating ring and the numbers in a file.
 
 :func:`ballrace.measure` takes a simulated or a measured acceleration through the stages below in this order,
 each of which may be left out; without any the numbers stay as they are. All that is random follows from one
-seed, a stage at a time: leaving one out does not change the noise of another.
+seed, separately for each stage: leaving one out does not change the noise of another.
 
 >>> import ballrace as br
 >>> mode = br.measuring.Mode(frequency=2800.0, damping=0.03, residue=0.5)
@@ -19,7 +19,7 @@ seed, a stage at a time: leaving one out does not change the noise of another.
 ============  ==================================================================================
 ``source``    the signal: columns of a run along the sensor's direction, or an array; the shaft's angle
 ``housing``   from ring to sensor: modes, a measured frequency response, or an impulse response
-``machine``   what else shakes there: harmonics of shaft and mains, noise, modulated by the shaft
+``machine``   other vibration there: harmonics of shaft and mains, noise, modulated by the shaft
 ``noise``     of a given density
 ``sensor``    mounted resonance and lower limit of the accelerometer
 ``logger``    anti-aliasing, sampling rate, noise of the electronics, range, quantisation

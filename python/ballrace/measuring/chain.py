@@ -132,7 +132,7 @@ class Measurement:
     scene : Scene or None
         What was run, where signals of a run were measured.
     warnings : tuple of str
-        What that run was warned of.
+        Warnings of that run.
     """
 
     x: NDArray[np.float64]
@@ -274,8 +274,8 @@ def measure(
     fs : float, optional
         Sampling rate of an array [Hz].
     shaft : float or array_like, shape (n,), optional
-        Frequency of the shaft [Hz] or its angle [rad], for what follows it. Signals know it where the motion of
-        the inner ring was recorded, or its speed is constant.
+        Frequency of the shaft [Hz] or its angle [rad], for shaft orders and tachometer. Signals have it where the
+        motion of the inner ring was recorded, or its speed is constant.
     seed : int
         The same seed gives the same noise, phases and jitter.
     **stages

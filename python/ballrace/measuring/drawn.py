@@ -1,4 +1,4 @@
-"""Machines and whole chains by chance, one of many for a set of records to learn from."""
+"""Random machines and chains, for sets of training records."""
 
 from __future__ import annotations
 
@@ -47,13 +47,13 @@ _RESONANCE = (15_000.0, 40_000.0)
 
 
 def random_machine(seed: int, *, background: Recorded | None = None) -> Machine:
-    """Return a machine by chance: shaft orders, mains, and noise that swells with the shaft and slowly.
+    """Return a random machine: shaft orders, mains, and noise with fast and slow modulation.
 
-    The noise has the shape of a measured floor, tilted by chance, at 1/100 to 100 times the density of the quiet
-    motor of record 97; or the floor of a record of the machine that is meant, at half to twice its density. The
-    shaft has strong orders 1 to 3 and a fifth of the others up to 240 as weak lines, as real surfaces, couplings
-    and motors leave; the mains have six multiples of 50 or 60 Hz. The noise swells with shaft orders 1 to 3 by up
-    to 0.3, 0.2 and 0.1 and wanders by up to 0.3. Levels are even on a logarithmic scale.
+    The noise has the shape of a measured floor with a random slope, at 1/100 to 100 times the density of the quiet
+    motor of record 97; or the floor of ``background`` at half to twice its density. The shaft has strong orders 1
+    to 3 and a fifth of the others up to 240 as weak lines, as from real surfaces, couplings and motors; the mains
+    have six multiples of 50 or 60 Hz. Shaft orders 1 to 3 modulate the noise by up to 0.3, 0.2 and 0.1, and it
+    wanders by up to 0.3. Levels are uniform on a logarithmic scale.
 
     Parameters
     ----------
@@ -90,20 +90,20 @@ def random_machine(seed: int, *, background: Recorded | None = None) -> Machine:
 
 
 def random_chains(n: int, *, seed: int, background: Recorded | None = None) -> dict[str, Chain]:
-    """Return measuring chains by chance, each another machine.
+    """Return random measuring chains, each of another machine.
 
     Each has a sensor within 30° of the vertical with a mounted resonance of 15 to 40 kHz, a housing of
-    :func:`random_housing` with modes from 0.8 to 12 kHz, a machine of :func:`random_machine` and a logger of 12 to
-    24 bits at the sampling rate of the signal.
+    :func:`random_housing` with modes from 0.8 to 12 kHz, a machine of :func:`random_machine` and a logger of 12,
+    16 or 24 bits at the sampling rate of the signal.
 
     Parameters
     ----------
     n : int
         How many.
     seed : int
-        The same seed gives the same chains, and more of them begin alike.
+        The same seed gives the same chains; a larger ``n`` adds further ones.
     background : Signals, Measurement, Recording or Channel, optional
-        Record of a healthy machine [m/s²], whose noise they have; by default that of a measured motor.
+        Record of a healthy machine [m/s²], whose noise floor they have; by default that of a measured motor.
 
     Raises
     ------

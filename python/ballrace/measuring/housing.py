@@ -29,8 +29,8 @@ class Mode:
     damping : float
         Damping ratio ζ_k, above 0 and below 1.
     residue : float
-        Its share r_k of what the sensor shows of a slow motion of the ring; negative where they move
-        oppositely. At resonance it shows ``residue / (2 damping)`` of the ring's acceleration.
+        Its share r_k of the sensor's acceleration over the ring's at low frequency; negative where they move in
+        opposite directions. At resonance the ratio is ``residue / (2 damping)``.
     """
 
     frequency: float
@@ -59,16 +59,16 @@ class Mode:
 class Housing:
     """A housing by its modes, whose transfer is ``direct + Σ r_k / (1 - s_k² + 2 i ζ_k s_k)`` with s_k = f/f_k.
 
-    A path from the ring to the sensor, applied to a signal. The mass that the ring sits in, which takes part in
-    a run, is a :class:`ballrace.Pedestal` of the scene; modes of its mount do not belong here as well.
+    It is the path from the ring to the sensor, applied to a signal. The mass in which the ring sits, which takes
+    part in a run, is a :class:`ballrace.Pedestal` of the scene; modes of its mount do not belong here.
 
     Attributes
     ----------
     modes : tuple of Mode
         The modes.
     direct : float
-        What passes as it is, of modes far above the band. With ``direct`` and the residues summing up to 1, the
-        sensor moves with the ring where it moves slowly.
+        Direct part, from modes far above the band. With ``direct`` and the residues summing to 1, the sensor moves
+        with the ring at low frequency.
     """
 
     modes: tuple[Mode, ...]
@@ -126,7 +126,7 @@ class MeasuredResponse:
         return np.asarray(real + 1.0j * imaginary, dtype=np.complex128)
 
     def ringing(self, fs: float) -> float:
-        """Length of the record that its resolution tells of [s]."""
+        """Length of the response, one over its frequency resolution [s]."""
         at = np.asarray(self.f)
         return float(1.0 / np.diff(at).min()) if at.size > 1 else 0.0
 
@@ -176,10 +176,10 @@ def random_housing(
     band: tuple[float, float] = (400.0, 12_000.0),
     damping: tuple[float, float] = (0.01, 0.05),
 ) -> Housing:
-    """Return a housing with modes by chance, one of many for a data set.
+    """Return a housing with random modes, for data sets.
 
-    Frequencies and damping ratios are even on a logarithmic scale, residues normal with mean 0, and scaled so that
-    half of a slow motion passes directly and the modes' residues have the root of the sum of squares 1/2.
+    Frequencies and damping ratios are uniform on a logarithmic scale, residues normal with mean 0 and scaled so
+    that the root of the sum of their squares is 1/2; the direct part is 1/2.
 
     Parameters
     ----------
@@ -188,8 +188,8 @@ def random_housing(
     modes : int
         Number of modes.
     band : tuple of two floats
-        Lowest and highest frequency of a mode [Hz]. A scene of :func:`ballrace.bearing` has the mount of its
-        housing near 1 kHz already: begin above, at 3 kHz or so, or give it ``housing=None``.
+        Lowest and highest frequency of a mode [Hz]. A scene of :func:`ballrace.bearing` already has the mount of
+        its housing near 1 kHz: begin above it, at some 3 kHz, or give the scene ``housing=None``.
     damping : tuple of two floats
         Lowest and highest damping ratio.
 

@@ -37,13 +37,13 @@ class Logger:
     fs : float or None
         Sampling rate [Hz]; None: that of the signal.
     bandwidth : float or None
-        Up to where it is flat [Hz], below half the sampling rate; from 1.25 times that, or from half the rate, on
-        it is down by 80 dB. None: 0.4 ``fs`` where the rate changes, and no filter where it does not.
+        Frequency up to which it is flat [Hz], below half the sampling rate; from 1.25 times that on, or from half
+        the rate, it is 80 dB down. None: 0.4 ``fs`` where the rate changes, and no filter where it does not.
     noise_density : float
         White noise of the electronics, its one-sided power spectral density [(m/s²)²/Hz].
     range : float or None
-        What is beyond ± this is clipped [m/s²]. None: it fits the signal, as the least of 1, 2, 5, 10, 20, … m/s²
-        that all samples lie within; :attr:`Measurement.range` tells which.
+        Samples beyond ± this are clipped [m/s²]. None: the least of 1, 2, 5, 10, 20, … m/s² that holds all
+        samples, which is then :attr:`Measurement.range`.
     bits : int or None
         Resolution, 2 to 32 bits over the range; None: not quantised.
     """

@@ -1,4 +1,4 @@
-"""What else shakes where the sensor sits."""
+"""Other vibration at the sensor."""
 
 from __future__ import annotations
 
@@ -38,12 +38,12 @@ _SWELLING = (0.1, 0.05)
 gives 2 m."""
 
 _SLOW, _WAVES = (0.1, 3.0), 8
-"""Frequencies of what swells the noise slowly [Hz], and how many waves of them."""
+"""Frequencies of the slow modulation of the noise [Hz], and the number of its waves."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Machine:
-    """Vibration of the machine at the sensor that is none of the bearing's.
+    """Vibration of the machine at the sensor that does not come from the bearing.
 
     Attributes
     ----------
@@ -58,12 +58,12 @@ class Machine:
         there, as :func:`scipy.signal.welch` finds them in a healthy record; beyond the last it is 0. By default
         the floor of a measured motor: some 1e-5 between 0.1 and 5 kHz, a hundredth of that above 8 kHz.
     modulation : tuple of float, or None
-        How the shaft's orders 1, 2, … swell the noise: it is multiplied by ``1 + Σ m_k cos(k θ + φ_k)``, which
-        gives the squared envelope lines there; phases are drawn. None: as measured on that motor, 0.1 and 0.05,
-        wherever the shaft's angle is known.
+        Modulation of the noise by the shaft's orders 1, 2, …: it is multiplied by ``1 + Σ m_k cos(k θ + φ_k)``,
+        which gives the squared envelope lines there; phases are drawn. None: as measured on that motor, 0.1 and
+        0.05, if the shaft's angle is known.
     wander : float
-        How the noise swells slowly, standard deviation of the logarithm of its amplitude: waves of 0.1 to 3 Hz by
-        chance, as load, temperature and the grip of mounts change.
+        Slow random modulation of the noise from 0.1 to 3 Hz, standard deviation of the logarithm of its amplitude,
+        as from changing load, temperature and mounts.
     """
 
     shaft: tuple[float, ...] = ()

@@ -21,8 +21,8 @@ def mix_into(
 ) -> NDArray[np.float64]:
     """Return a signal on top of a measured background of the same sampling rate.
 
-    The background stays as it was measured; the signal is scaled so that its power, the mean removed, stands
-    that far above the background's.
+    The background stays as it was measured; the signal is scaled so that its power, without its mean, is
+    ``snr_db`` above that of the background.
 
     Parameters
     ----------
@@ -31,9 +31,9 @@ def mix_into(
     background : array_like, shape (m,)
         Measured record of a healthy bearing, m at least n, at the same sampling rate.
     snr_db : float
-        Signal's over background's power [dB].
+        Power of the signal over that of the background [dB].
     seed : int, optional
-        Where in the background it begins is drawn from it; by default at its beginning.
+        Seed from which the beginning within the background is drawn; by default the signal begins with it.
 
     Raises
     ------

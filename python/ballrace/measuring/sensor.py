@@ -24,11 +24,11 @@ class Sensor:
     Attributes
     ----------
     resonance : float or None
-        Mounted resonance [Hz]: some 5 kHz by hand, 10 kHz on a magnet, 30 kHz screwed on; None: none.
+        Mounted resonance [Hz]: some 5 kHz hand-held, 10 kHz on a magnet, 30 kHz screwed on; None: none.
     damping : float
         Its damping ratio.
     lower_limit : float or None
-        Frequency at which a coupling capacitor takes 3 dB off [Hz]; None: it reads constant accelerations.
+        Frequency at which a coupling capacitor attenuates by 3 dB [Hz]; None: it measures constant accelerations.
     """
 
     resonance: float | None = 30_000.0

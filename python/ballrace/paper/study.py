@@ -89,7 +89,7 @@ def run(
     duration : float
         Simulated time of each case [s]; below 0.1 there are fewer than the twelve impacts asked for.
     threads : int
-        Threads of a run; 0 chooses.
+        Threads of a run; 0: chosen automatically.
     progress : callable, optional
         Is given the share done, from 0 to 1.
 

@@ -2,7 +2,7 @@
 
 Each function draws into ``fig`` if one is given, passes ``layout`` on to ``fig.update_layout``, and returns the
 figure, whose ``data`` hold the numbers. :func:`write` makes a page of one that needs no network, and
-:data:`CONFIG` is what keeps plotly's logo and cloud off elsewhere: ``fig.show(config=br.plot.CONFIG)``.
+:data:`CONFIG` switches plotly's logo and cloud off elsewhere: ``fig.show(config=br.plot.CONFIG)``.
 
 >>> import ballrace as br
 >>> scene = br.bearing("6205", defects=br.defects.spall(on="inner_race", width_mm=1.0))

@@ -111,7 +111,7 @@ def distribution(
     value : str
         Column of the feature.
     by : str, optional
-        Column by whose values cases are told apart, such as ``fault_outer_race``.
+        Column that groups the cases by its values, such as ``fault_outer_race``.
     fig : plotly.graph_objects.Figure, optional
         Figure to draw into.
     **layout

@@ -20,8 +20,8 @@ __all__ = ["add_lines"]
 def add_lines(fig: go.Figure, bands: Sequence[FaultBand], top: float) -> None:
     """Draw lines from 0 to ``top`` where bands have their middle, with a marker and a label on top.
 
-    The labels are upright, so that those of neighbours do not meet. With several faults in one picture only the
-    harmonics are labelled; sidebands tell their name under the pointer.
+    The labels are upright, so that those of neighbours do not overlap. With several faults in one picture only the
+    harmonics are labelled; sidebands show their name under the pointer.
     """
     from .._plotly import Scatter
 

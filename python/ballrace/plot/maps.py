@@ -47,7 +47,7 @@ def spectrogram(
     fig: go.Figure | None = None,
     **layout: Any,
 ) -> go.Figure:
-    """Draw the power spectral density in time, in decibels under its largest value.
+    """Draw the power spectral density over time, in decibels below its largest value.
 
     Parameters
     ----------
@@ -117,7 +117,7 @@ def order_map(
     per_turn : int, optional
         Samples a turn, as of :func:`ballrace.spectra.by_order`; by default enough for ``highest``.
     envelope : bool
-        Whether the orders are those of the squared envelope, where defects are seen, or of the signal.
+        Whether the orders are those of the squared envelope, which shows defects, or of the signal.
     band : tuple of two floats, optional
         Band of the envelope [Hz].
     faults, row
@@ -264,7 +264,7 @@ def kurtogram(
     fig : plotly.graph_objects.Figure, optional
         Figure to draw into.
     fs, narrowest : float, optional
-        Sampling rate of an array, and width that no band is below [Hz]; as of that function.
+        Sampling rate of an array, and least width of a band [Hz]; as of that function.
     **layout
         For ``fig.update_layout``.
 

@@ -1,4 +1,4 @@
-"""Ways that bodies take: the orbit of the shaft, and a ball over a defect."""
+"""Paths of bodies: the orbit of the shaft, and a ball over a defect."""
 
 from __future__ import annotations
 
@@ -33,14 +33,14 @@ def orbit(
     fig: go.Figure | None = None,
     **layout: Any,
 ) -> go.Figure:
-    """Draw the way of the shaft's centre in the plane of the bearing.
+    """Draw the path of the shaft's centre in the plane of the bearing.
 
     Parameters
     ----------
     out : Signals or Recording
         A run, or a record, with the columns ``inner.x`` and ``inner.y``.
     relative : bool
-        Whether it is seen from the outer ring's centre, if that was recorded.
+        Whether it is relative to the outer ring's centre, if that was recorded.
     skip : float
         Beginning of the run that is left out [s].
     fig : plotly.graph_objects.Figure, optional
@@ -103,7 +103,7 @@ def ball_path(
     defect : str, optional
         Name of the defect; by default the first on a race.
     reach : float
-        How far to either side is shown, in widths of the defect.
+        Range that is shown to either side, in widths of the defect.
     fig : plotly.graph_objects.Figure, optional
         Figure to draw into.
     **layout

@@ -110,7 +110,7 @@ def _line(fig: go.Figure, x: list[float], y: list[float], **line: Any) -> None:
 
 
 def _angle(fig: go.Figure, row: Row, angle: float, *, named: bool) -> None:
-    """Draw the line of contact through the balls of a row, and how far it leans."""
+    """Draw the line of contact through the balls of a row, and its angle."""
     z, r, reach = 1e3 * row.axial_position, 0.5e3 * row.pitch_diameter, 0.85e3 * row.ball_diameter
     dz, dr = reach * row.side * math.sin(angle), reach * math.cos(angle)
     for half in (1.0, -1.0):

@@ -79,7 +79,7 @@ def scene_of(of: object) -> Scene | None:
 def rates_of(of: object, rates: FaultFrequencies | None, row: int) -> FaultFrequencies | None:
     """Return the fault frequencies: those given, or of the run's scene at its operating contact angle.
 
-    Where no equilibrium tells that angle, it is the nominal one; where the speed changes there are none.
+    Without an equilibrium that angle is the nominal one; where the speed changes there are none.
     """
     scene = scene_of(of)
     if rates is not None or scene is None or not isinstance(scene.drive, SpeedDrive):

@@ -44,8 +44,8 @@ def envelope_spectrum(
 ) -> go.Figure:
     """Draw the spectrum of an envelope with the lines that defects may have: k·BPFO, k·BPFI ± f_r, 2k·BSF ± FTF.
 
-    A ball of a run spins about the axis only, so that the lines of its defect are k·BSF/cos α, or twice that where
-    it reaches both tracks (:func:`ballrace.frequencies.operating.spin_of`).
+    In a run whose balls spin about the axis only, the lines of a ball's defect are k·BSF/cos α, or twice that
+    where it reaches both tracks (:func:`ballrace.frequencies.operating.spin_of`).
 
     Parameters
     ----------

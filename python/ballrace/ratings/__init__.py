@@ -1,1 +1,1 @@
-"""What published formulas say of a bearing: rating life and its load ratings, friction torque."""
+"""Published formulas for a bearing: rating life, load ratings, friction torque."""

@@ -42,11 +42,11 @@ class FrictionTorque:
     Attributes
     ----------
     rolling : float
-        What speed and oil make of it [N m]: SKF's rolling frictional moment M_rr, Palmgren's M₀.
+        Part that depends on speed and oil [N m]: SKF's rolling frictional moment M_rr, Palmgren's M₀.
     sliding : float
-        What load makes of it [N m]: SKF's sliding frictional moment M_sl, Palmgren's M₁.
+        Part that depends on load [N m]: SKF's sliding frictional moment M_sl, Palmgren's M₁.
     source : str
-        By whose formula.
+        Source of the formula.
     """
 
     rolling: float
@@ -94,7 +94,7 @@ def friction_torque_skf(
     radial_load, axial_load : float
         Loads [N].
     static_rating : float, optional
-        Static load rating C₀ [N]; an axial load wants it.
+        Static load rating C₀ [N]; required with an axial load.
     film_friction : float
         Coefficient of friction of a full film: 0.05 for mineral oils, 0.04 for synthetic ones.
 
@@ -204,7 +204,7 @@ def _load_variables(
     if axial == 0.0:
         return R_1 * d_m**1.96 * radial**0.54, S_1 * d_m**-0.26 * radial ** (5.0 / 3.0)
     if static_rating is None:
-        raise SceneError("static_rating", "None", "given [N], since there is an axial load")
+        raise SceneError("static_rating", "None", "a rating [N], since there is an axial load")
     _check("static_rating", static_rating, "N")
     sine = math.sin(math.radians(24.6 * (axial / static_rating) ** 0.24))
     sliding = (radial**5 + S_2 * d_m**1.5 / sine * axial**4) ** (1.0 / 3.0)

@@ -34,8 +34,8 @@ __all__ = ["RatingLife", "rating_life"]
 class RatingLife:
     """Rating life at 90 % reliability.
 
-    Where loads or the speed change, all of it is of their whole period: lives by Miner's rule, every state
-    weighted with the turns that it lasts, and equivalent loads as the cubic means that belong to them.
+    Where loads or the speed change, all values are those of their whole period: lives by Miner's rule, every state
+    weighted by its number of turns, and equivalent loads as the corresponding cubic means.
 
     Attributes
     ----------
@@ -60,7 +60,7 @@ class RatingLife:
         Modified reference rating life L₁₀ₘᵣ = a_ISO L₁₀ᵣ after ISO/TS 16281 [turns]; None where a row has no oil,
         or nothing turns or loads the bearing.
     factor : LifeFactor or None
-        a_ISO and what it was made of, in the state of the shortest life; None where ``modified`` is.
+        a_ISO with the numbers it follows from, in the state of the shortest life; None where ``modified`` is.
     """
 
     rating: float
@@ -121,7 +121,7 @@ def rating_life(
         ``"normal"``, ``"slight"`` and ``"typical"`` contamination to ``"severe"`` and ``"very severe"``, or e_C
         itself, 0 to 1. It counts where the scene has an oil.
     around : LoadDistribution, optional
-        The :func:`load_distribution` of the scene where you have it already: it takes nine tenths of the time. It
+        The :func:`load_distribution` of the scene if it is already known, which saves nine tenths of the time. It
         is used where loads and speeds are constant.
 
     Returns

@@ -38,7 +38,7 @@ _LARGEST = 50.0
 
 @dataclass(frozen=True, kw_only=True)
 class LifeFactor:
-    """a_ISO and what it is made of.
+    """a_ISO with the numbers it follows from.
 
     Attributes
     ----------

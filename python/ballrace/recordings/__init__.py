@@ -1,7 +1,7 @@
-"""Records, measured or simulated, in and out of the files that others use.
+"""Records, measured or simulated, read from and written to common file formats.
 
-:func:`read` takes what was measured into a :class:`Recording`, whose columns go into the same functions as
-those of a run; :meth:`Recording.write`, which runs have too, writes the format that a file's name ends in.
+:func:`read` returns a :class:`Recording`, whose columns go into the same functions as those of a run;
+:meth:`Recording.write`, which runs have too, writes the format that a file's name ends in.
 
 ====================  ======================  =======================  ================  ============
 format                ends in                 numbers                  keeps             needs

@@ -1,8 +1,8 @@
-"""Files of records read in a child process, which they may end, fill or keep busy without harm to this one.
+"""Files of records read in a child process, so that a damaged file can crash, fill or block only that process.
 
 The libraries that read these formats are written in C, C++ and Rust; one changed byte of a file can end the
 process. So one child, kept for the files that follow, reads them within limits. A request is a line of JSON, and
-so is the answer, which tells the columns and their lengths; the samples follow as they are in memory. Nothing is
+so is the answer, which has the columns and their lengths; the samples follow as they are in memory. Nothing is
 unpickled: the process that reads a malicious file may be under its control.
 """
 
@@ -257,7 +257,7 @@ def _answer(request: dict[str, Any]) -> Iterator[bytes | memoryview]:
     """Yield the line of an answer, then its samples."""
     path, form = Path(request["path"]), request["format"]
     with suppress(ImportError):
-        importlib.import_module(_LIBRARIES[form])  # what is missing is told by what needs it
+        importlib.import_module(_LIBRARIES[form])  # what is missing is reported by what needs it
     limits.most = request["memory_limit"]
     before = _memory.peak() or 0
     try:

@@ -1,4 +1,4 @@
-"""What runs and recordings have in common: columns at one sampling rate, which go elsewhere."""
+"""What runs and recordings have in common: columns at one sampling rate, and their export."""
 
 from __future__ import annotations
 
@@ -122,7 +122,7 @@ class Columns(Mapping[str, NDArray[np.float64]]):
     def to_xarray(self) -> xr.Dataset:
         """Return an xarray data set: a variable a column over the coordinate ``t``, with units as attributes.
 
-        Its own attributes are ``sampling_rate`` and ``told``, a JSON text of what else is known.
+        Its own attributes are ``sampling_rate`` and ``told``, a JSON text of all other metadata.
 
         Raises
         ------
@@ -147,20 +147,21 @@ class Columns(Mapping[str, NDArray[np.float64]]):
     ) -> pl.DataFrame:
         """Return pieces of equal length as a table for learning, a row a window.
 
-        Each row tells all of itself, as tables of Hugging Face's ``datasets`` do; write them with
-        ``write_parquet``. Split such data by ``bearing_id``, or it leaks.
+        Each row has all of its metadata, as tables of Hugging Face's ``datasets`` have; write them with
+        ``write_parquet``. Split such data by ``bearing_id``: windows of one bearing resemble each other.
 
         Parameters
         ----------
         length : int
             Samples of a window.
         hop : int, optional
-            Samples from one window to the next; by default ``length``. A rest shorter than a window is left out.
+            Samples from one window to the next; by default ``length``. A remainder shorter than a window is left
+            out.
         columns : str or iterable of str, optional
             Which columns; by default all accelerations (in m/s² or g), or all columns where there are none.
         label : str, optional
             What is damaged; by default the surfaces with defects in the scene of a run, such as ``"outer_race"``
-            or ``"inner_race+ball"``, and ``"healthy"`` without. Of a recording it is not known.
+            or ``"inner_race+ball"``, and ``"healthy"`` without; null for a recording.
         bearing_id : str or int, optional
             Which bearing it is.
 
@@ -241,7 +242,7 @@ class Columns(Mapping[str, NDArray[np.float64]]):
         write(samples, path)
 
     def _samples(self, names: Iterable[str] | None = None) -> Samples:
-        """Return some of the columns, or all, with what files tell of them."""
+        """Return some of the columns, or all, with the metadata that files hold."""
         chosen = list(self if names is None else names)
         return Samples(
             columns={name: self[name] for name in chosen},
@@ -270,11 +271,11 @@ class Columns(Mapping[str, NDArray[np.float64]]):
 
     @abstractmethod
     def _told(self) -> dict[str, Any]:
-        """Return what files tell of all columns: the fields ``shaft`` and ``metadata`` of :class:`Samples`."""
+        """Return the metadata of all columns: the fields ``shaft`` and ``metadata`` of :class:`Samples`."""
 
     @abstractmethod
     def _origin(self) -> Origin:
-        """Return what windows tell of where they come from."""
+        """Return the origin of windows, for their metadata."""
 
 
 def no_column(name: object, columns: Iterable[str]) -> KeyError:

@@ -39,38 +39,38 @@ def read(
     tabs or spaces; WAV (whole numbers as shares of the full scale); Universal Files with data sets 58; HDF5; and
     Parquet, also that of runs.
 
-    A child process reads the file, so that a damaged or malicious one can neither end this process nor fill the
-    memory. It takes 0.3 s to start, reads all files that follow, and ends with this process.
+    A child process reads the file, so that a damaged or malicious one can neither crash this process nor fill the
+    memory. It takes 0.3 s to start, reads all later files, too, and ends with this process.
 
     Parameters
     ----------
     path : path
         The file.
     fs : float, optional
-        Sampling rate [Hz]; needed where the file does not tell it. Files of the Case Western Reserve University
-        never do: it is 12 or 48 kHz, by the page that a record was taken from.
+        Sampling rate [Hz]; needed where the file does not have it. Files of the Case Western Reserve University
+        never do: it is 12 or 48 kHz, as on the page of the record.
     format : {"csv", "wav", "mat", "uff", "hdf5", "parquet"}, optional
         By default what the name ends in, or else how the file begins.
     time_limit : float
         How long reading may take [s]; ``math.inf`` for any time.
     memory_limit : float
-        What reading may take beside the libraries [bytes]; ``math.inf`` for any. Ten times the samples,
-        8 bytes each, suffice. Linux holds a process to it. macOS does not: there the child looks at its memory
-        every 10 ms, and ends. On Windows only what a file declares is compared with it (HDF5, Parquet).
+        Memory that reading may take in addition to the libraries [bytes]; ``math.inf`` for any. Ten times the
+        samples, 8 bytes each, are enough. Linux enforces it. On macOS the child checks its memory every 10 ms, and
+        ends beyond it. On Windows only the declared size of a file is compared with it (HDF5, Parquet).
     trusted : bool
-        Read in this process, without limits. A damaged file may end it.
+        Whether to read in this process, without limits, which a damaged file may crash.
 
     Returns
     -------
     Recording
-        Columns with sampling rate, units and shaft rate as far as the file tells them.
+        Columns with sampling rate, units and shaft rate as far as the file has them.
 
     Raises
     ------
     SceneError
-        An argument is not usable, or ``fs`` missing, or another than the file tells.
+        An argument is not usable, or ``fs`` is missing, or differs from the file's rate.
     FileError
-        The file is damaged, has no record, or takes more than the limits to read; the message says what of it.
+        The file is damaged, has no record, or takes more than the limits to read; the message says which.
     ImportError
         The library for this format is not installed (extra ``io``).
     OSError
@@ -106,10 +106,10 @@ def read(
 def _recording(path: Path, samples: Samples, fs: float | None) -> Recording:
     told = _usable(path, samples.fs, fs)
     if told is not None and fs is not None and not math.isclose(fs, told, rel_tol=1e-3):
-        raise SceneError("fs", str(fs), f"what {path.name} tells, {told:g} Hz, or left out")
+        raise SceneError("fs", str(fs), f"the rate in {path.name}, {told:g} Hz, or absent")
     rate = fs if told is None else told
     if rate is None:
-        raise SceneError("fs", "None", f"the sampling rate [Hz], which {path.name} does not tell")
+        raise SceneError("fs", "None", f"the sampling rate [Hz], which {path.name} does not have")
     return Recording(
         columns=samples.columns,
         fs=rate,
@@ -122,11 +122,9 @@ def _recording(path: Path, samples: Samples, fs: float | None) -> Recording:
 
 
 def _usable(path: Path, told: float | None, fs: float | None) -> float | None:
-    """Return the rate that a file tells; one that is none counts as not told where another is given."""
+    """Return the rate of a file; an unusable one counts as missing where another is given."""
     if told is None or RATES[0] <= told <= RATES[1]:
         return told
     if fs is None:
-        raise FileError(
-            str(path), f"tells a sampling rate of {told:g} Hz; give fs where you know it"
-        )
+        raise FileError(str(path), f"has a sampling rate of {told:g} Hz; give fs if you know it")
     return None

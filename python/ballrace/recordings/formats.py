@@ -1,4 +1,4 @@
-"""Which formats there are, and what tells them: the name of a file, or how it begins."""
+"""The formats, recognised by the name of a file or by its first bytes."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """MATLAB files: of the Case Western Reserve University, Paderborn University, the MFPT society, or vectors.
 
-The keys of Case Western are ``X105_DE_time`` and so on, and ``X105RPM``. Its files tell neither the sampling rate
+The keys of Case Western are ``X105_DE_time`` and so on, and ``X105RPM``. Its files have neither the sampling rate
 nor the unit.
 """
 

@@ -19,11 +19,11 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 _TOLD = "ballrace.recording"
-"""Entry of the metadata that tells of the columns."""
+"""Entry of the metadata with those of the columns."""
 
 
 def write(samples: Samples, temporary: Path, path: Path) -> None:
-    """Write times and columns, what is told of them in the metadata, and a hash of it all."""
+    """Write times and columns, their metadata, and a hash of everything."""
     from .._polars import pl
 
     table = pl.DataFrame({"t": samples.t, **samples.columns})

@@ -1,4 +1,4 @@
-"""A record, whoever made it."""
+"""A record from any source."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class Recording(Columns):
     source : str
         The file it was read from.
     metadata : mapping
-        What else the file tells.
+        Further metadata of the file.
     others : tuple of Recording
         Columns of the same file at other rates.
 

@@ -1,4 +1,4 @@
-"""What a file of a record holds, before it is known to suffice; and as text beside its samples."""
+"""Contents of a file of a record, before they are checked; and their metadata as text."""
 
 from __future__ import annotations
 
@@ -24,25 +24,25 @@ RATES = (
     "SampleRate",
     "SamplingRate",
 )
-"""Attributes or single numbers of a file that may tell the rate [Hz]."""
+"""Attributes or single numbers of a file that may be the rate [Hz]."""
 
 
 @dataclass(kw_only=True)
 class Samples:
-    """Columns of one length at one sampling rate, and what is told of them.
+    """Columns of one length at one sampling rate, and their metadata.
 
     Attributes
     ----------
     columns : dict of str to ndarray
         Columns, each of shape (n,).
     fs : float or None
-        Sampling rate [Hz]; None where the file does not tell it.
+        Sampling rate [Hz]; None where the file does not have it.
     units : dict of str to str
-        Unit of a column; absent or empty where the file does not tell it.
+        Unit of a column; absent or empty where the file does not have it.
     shaft : float or None
-        Mean rate of the shaft [Hz]; None where it is not told.
+        Mean rate of the shaft [Hz]; None where it is not known.
     metadata : dict
-        What else is told, as JSON can hold it.
+        Further metadata that JSON can hold.
     others : list of Samples
         Columns at other rates.
     """
@@ -75,7 +75,7 @@ class Samples:
 
 
 def from_told(path: Path, text: str, columns: Mapping[str, NDArray[np.float64]]) -> Samples:
-    """Return columns with what :meth:`Samples.told` said of them.
+    """Return columns with the metadata of :meth:`Samples.told`.
 
     Raises
     ------
@@ -93,5 +93,5 @@ def from_told(path: Path, text: str, columns: Mapping[str, NDArray[np.float64]])
             metadata=dict(entries["metadata"]),
         )
     except (KeyError, TypeError, ValueError, AttributeError) as error:
-        reason = f"damaged: what it tells of its columns cannot be read ({error!r})"
+        reason = f"damaged: the metadata of its columns cannot be read ({error!r})"
         raise FileError(str(path), reason) from error

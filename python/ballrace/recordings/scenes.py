@@ -1,4 +1,4 @@
-"""What a scene tells of the samples that a run of it gives."""
+"""Metadata of a run's samples from its scene."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def shaft_of(scene: Scene) -> float | None:
 
 
 def origin_of(scene: Scene, version: str | None) -> Origin:
-    """Return what windows of a run tell of its scene."""
+    """Return the origin of windows of a run, from its scene."""
     return Origin(
         speed=lambda t: relative_speed(scene, t),
         load=lambda t: [

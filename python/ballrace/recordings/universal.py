@@ -61,7 +61,7 @@ def write(samples: Samples, temporary: Path, path: Path) -> None:
             # Its mode "overwrite" would keep of each data set what stands after the samples.
             temporary.unlink(missing_ok=True)
             pyuff.UFF(str(temporary)).write_sets(sets, mode="add")
-    except Exception as error:  # pyuff raises no other, and tells no reason
+    except Exception as error:  # pyuff raises no other, and gives no reason
         raise OSError(errno.EIO, f"cannot be written ({error})", str(path)) from error
 
 

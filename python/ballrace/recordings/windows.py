@@ -1,4 +1,4 @@
-"""Windows of a record as a table, a row a window, each with what it is of."""
+"""Windows of a record as a table, with a row for each window and its metadata."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Reports: one page of a run or of a campaign that needs no network, with figures, tables and what to trust.
+"""Reports: one page of a run or of a campaign that needs no network, with figures, tables and warnings.
 
 >>> import ballrace as br, pathlib, tempfile
 >>> out = br.simulate(br.bearing("6205"), duration=0.05)

@@ -84,7 +84,7 @@ def _add_maps(page: Page, table: pl.DataFrame, varied: list[str], names: list[st
     if len(grids) < 2:
         return
     page.section("Maps")
-    # A mean of healthy and damaged cases would tell of neither.
+    # A mean over healthy and damaged cases would describe neither.
     by = _fault(table)
     parts = {"": table}
     if by is not None:
@@ -116,7 +116,7 @@ def _add_distributions(page: Page, table: pl.DataFrame, names: list[str]) -> Non
 
 
 def _fault(table: pl.DataFrame) -> str | None:
-    """Return the column of faults, if there is one, that tells damaged cases from others."""
+    """Return the column of faults, if there is one, that separates damaged cases from others."""
     told = (f"fault_{on}" for on in SURFACES if f"fault_{on}" in table.columns)
     return next((name for name in told if table[name].drop_nulls().n_unique() > 1), None)
 

@@ -19,14 +19,15 @@ class Approximations(Part):
     Attributes
     ----------
     rolling : bool
-        Balls and cage are kinematic: every row orbits in proportion to the inner ring as it rolls at the start,
-        its balls spaced as there, and moves along its radii and z only. Friction and cage are left out, of
-        :meth:`Model.rhs` and :meth:`Model.forces` too, which else are those of free balls. Needs a driven speed.
+        Balls and cage are kinematic: every row orbits at the share of the inner ring's speed at which it rolls at
+        the start, with the spacing of its balls at the start; balls move only along their radii and z. Friction
+        and cage are left out, also from :meth:`Model.rhs` and :meth:`Model.forces`, which otherwise include free
+        balls. Needs a given speed.
     plane : bool
-        Rings and balls keep their axial places from the start, the balls of a row all the same one: the plane
-        model of a bearing with a contact angle, where loads along z do not change.
+        Rings and balls keep their axial places from the start, all balls of a row the same one: the plane
+        model of a bearing with a contact angle, for loads along z that do not change.
     one_row : bool
-        Of two rows the one that carries less than 2 % of the load at the start is left out, where loads do not
+        Of two rows, the one that carries less than 2 % of the load at the start is left out, where loads do not
         change.
     """
 

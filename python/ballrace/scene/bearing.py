@@ -69,7 +69,7 @@ class GothicArch(Part):
     shim_angle : float
         Between the plane and the normals of a resting ball [rad]; above 0, at most 80°.
     conformities : tuple of two floats, or None
-        Conformities of the flanks towards -z and +z [1], above 0.5 and at most 1; None: that of the race, both.
+        Conformities of the flanks towards -z and +z [1], above 0.5 and at most 1; None: both that of the race.
     """
 
     shim_angle: float
@@ -106,16 +106,16 @@ class Row(Part):
     outer_shoulders, inner_shoulders : tuple of two floats, or None
         Shoulder angles towards -z and +z, from the groove's centre [rad]; None: no shoulders.
     outer_shoulder_radius, inner_shoulder_radius : float or None
-        Radius by which the shoulders' edges are rounded off [m], so that a contact that runs over one fades away;
-        None: sharp edges. With the law of ISO 16281.
+        Radius by which the shoulders' edges are rounded [m], so that the force of a contact that runs over one
+        falls smoothly; None: sharp edges. Only with shoulders and the law of ISO 16281.
     outer_profile, inner_profile : RaceProfile or None
-        Race through points, in place of the groove that the conformity says.
+        Race through points, in place of the groove of the conformity.
     outer_arch, inner_arch : GothicArch or None
         Race as a gothic arch, as in a four-point bearing.
     outer_waviness, inner_waviness : tuple of Waviness
         Waviness of the race; turns with its ring. Empty: none.
     texture : Texture or None
-        Texture of races and balls, on top of their waviness; None: smooth.
+        Texture of races and balls, added to their waviness; None: smooth.
     diameter_errors : tuple of float
         Diameter error of each ball [m]; empty: none.
     ball_mass : float or None
@@ -127,11 +127,11 @@ class Row(Part):
     ball_material : Material or None
         Material of the row's balls; None: the scene's ``materials.balls``.
     contact : Contact or None
-        How the row's balls meet their races, in place of the whole of the scene's ``contact``; None: as there.
+        Contact of the row's balls and races, in place of all of the scene's ``contact``; None: that of the scene.
     friction : Friction or None
         Friction of the row's balls and races, ``"none"`` for none; None: that of the scene.
     lubricant : Lubricant or None
-        Oil of the row's balls and races, in place of the scene's; None: as there.
+        Oil of the row's balls and races, in place of all of the scene's ``lubricant``; None: that of the scene.
     """
 
     ball_count: int
@@ -184,16 +184,14 @@ class Ring(Part):
     support : Support
         How the ring is supported.
     tilt : tuple of two floats, or None
-        Nominal tilt about x and y [rad], together at most 0.5: how far the ring tilts where its tilts are held
-        or their
-        springs relaxed; None: not at all.
+        Nominal tilt about x and y [rad], its magnitude at most 0.5: the rotation at which the tilts are held, or
+        their springs relaxed; None: 0. It does not apply to a tilt whose motion is given.
     transverse_inertia : float or None
-        Moment of inertia about an axis across z through the centre of mass [kg m²]; None: from what
-        ``inertia`` comes
-        from, of a hollow cylinder as long as ``width``.
+        Moment of inertia about an axis across z through the centre of mass [kg m²]; None: that of the hollow
+        cylinder or thin ring that ``inertia`` is computed from, as long as ``width``.
     centre_of_mass : float or None
-        Axial place of the centre of mass in the ring's frame [m], whose displacement are x, y and z of the
-        ring; None: 0.
+        Axial place of the centre of mass in the ring's frame [m]; x, y and z of the ring are the displacement of
+        this point. None: 0.
     """
 
     mass: float | None = None

@@ -22,8 +22,8 @@ __all__ = [
 class Iso16281(Variant, tag="iso16281"):
     """The paper's law, after the roller slices of ISO/TS 16281: the sum of ``c s^(10/9)`` over the slices.
 
-    With the paper's constants it gives way about three times as far as Hertz; :func:`ballrace.explain` says how
-    far at a scene's own load.
+    With the paper's constants ball and race approach about three times as far as by Hertz's law;
+    :func:`ballrace.explain` gives the ratio at a scene's own load.
 
     Attributes
     ----------
@@ -56,12 +56,12 @@ class FixedSlices(Variant, tag="fixed", wraps=True):
 
 @dataclass(frozen=True)
 class FittedSlices(Variant, tag="fitted", wraps=True):
-    """Quadrature nodes on every smooth piece of the zone that touches.
+    """Quadrature nodes on every smooth piece of the zone of contact.
 
     Attributes
     ----------
     count : int
-        Nodes a piece of the zone, 2 to 64.
+        Nodes on each piece, 2 to 64.
     """
 
     count: int
@@ -86,7 +86,7 @@ Slices = FixedSlices | FittedSlices | AccurateSlices
 
 @dataclass(frozen=True, kw_only=True)
 class Contact(Part):
-    """How a ball meets a race.
+    """Contact of a ball and a race: elastic law, slices, damping.
 
     Attributes
     ----------

@@ -87,30 +87,32 @@ class Defect(Part):
     angle : float
         Angular place on the body, counter-clockwise from its own x axis [rad].
     axial_offset : AxialOffset
-        Axial place of the middle, from the row's plane (races) or the ball's centre [m]. ``"contact"`` places it
-        where the contact runs that it is there for: the most loaded of those that meet it over a turn of the
-        balls, at the static equilibrium of the healthy bearing under the largest value of every load. Of a
-        defect on the outer race that is a ball's at the defect's own angle; of one on a ball, its contact with
-        the race that loads it more. Without equilibrium or load it is the place of the nominal contact angle.
-        A run records the number in ``out.scene`` and its origin in ``out.defects``.
+        Axial place of the middle, from the row's plane (races) or the ball's centre [m]. ``"contact"``: where the
+        most loaded of the contacts runs that meet the defect over a turn of the balls, at the static equilibrium
+        of the healthy bearing under the largest value of every load; on the outer race that of a ball at the
+        defect's own angle, on a ball that with the race that loads it more. Without equilibrium or load it is the
+        place of the nominal contact angle. A run records the number in ``out.scene`` and its origin in
+        ``out.defects``.
     shape : "cap", "pit" or None
-        Outline; None: a patch of ``length`` and ``width``. A cap of a ball is a circle on its surface, as wide in
-        every direction as ``width`` says, less than the ball's radius. Its middle is seen from the ball's centre
-        in a direction that is fixed in the ball: at ``angle`` about z, and where it meets the surface at
-        ``axial_offset``. A pit is a deep hole smaller than its contact, which bulges into it and shares load: an
-        ellipse of ``width`` along rolling and ``length`` across; what is too large for its contact is refused.
+        Outline; None: a patch of ``length`` and ``width``. A cap of a ball is a circle on its surface, ``width``
+        wide along the surface in every direction, less than the ball's radius. The direction from the ball's
+        centre to its middle is fixed in the ball: at ``angle`` about z, with ``axial_offset`` the axial place of
+        the middle. A pit is a deep hole smaller than its contact, into which the surfaces bulge so that the
+        contact loses part of its load: an ellipse of ``width`` along rolling and ``length`` across. A pit too
+        large for its contact is refused.
     length : float
-        Axial length [m]; of a cap 0, or left out, and of a round pit.
+        Axial length [m]; 0 or left out for a cap and for a round pit.
     width : Width
-        Arc length along the surface [m]; of a cap or pit a plain number.
+        Arc length along the surface [m]; for a cap, a pit and steep walls one number.
     edge_radius : float
-        Radius of the fault circles at the edges [m]; a pit has none, and one with walls none of its own.
+        Radius of the fault circles at the edges [m]; left out for a pit, which has none, and with ``walls``,
+        which set it.
     walls : "steep" or None
-        Walls of a patch of one width; None: the fault circles are as given. A contact hangs over a steep wall by
-        half of itself before it reaches the surface beside it: its fault circles get a radius of a quarter of the
-        ball's diameter and stand further apart than ``width`` by the half-width of the most loaded contact that
-        meets the defect at the static equilibrium of the healthy bearing. What is narrower than 1.25 contacts is
-        refused. A run records both numbers in ``out.scene``.
+        Walls of a patch of one width; None: distance and radius of the fault circles are ``width`` and
+        ``edge_radius``. Over a steep wall a contact carries load until half of it is over the wall: its fault
+        circles get a radius of a quarter of the ball's diameter and stand further apart than ``width`` by the
+        half-width of the most loaded contact that meets the defect at the static equilibrium of the healthy
+        bearing. A defect narrower than 1.25 contacts is refused. A run records both numbers in ``out.scene``.
     floor : Floor or None
         Recessed circles between the edges; None: no floor.
     """

@@ -17,7 +17,7 @@ class SpeedDrive(Variant, tag="speed", wraps=True):
     Attributes
     ----------
     speed : TimeFunction
-        Speed [rad/s]; may not jump.
+        Speed [rad/s]; must not jump.
     """
 
     speed: TimeFunction

@@ -24,7 +24,8 @@ class Load(Part):
     force : TimeFunction
         Force along the direction [N].
     at : tuple of three floats, or None
-        The point in the ring's frame, which tilts but does not turn with the ring [m]; None: the ring's origin.
+        Where it acts, in the ring's frame, which tilts but does not turn with the ring [m]; None: the ring's
+        origin.
     """
 
     ring: RingName
@@ -37,15 +38,15 @@ class Load(Part):
 class Moment(Part):
     """A moment on a ring, about a direction that is fixed in the inertial frame.
 
-    The part about the ring's axis turns the ring; the part across it tilts the ring, or is carried by what
-    holds it.
+    Its part about the ring's axis turns the ring; its part across the axis tilts the ring, or is carried by the
+    support that holds the ring parallel.
 
     Attributes
     ----------
     ring : {"outer", "inner"}
         The loaded ring.
     direction : tuple of three floats
-        What it turns about, along x, y, z [1]; its length does not matter.
+        Axis of the moment, along x, y, z [1]; its length does not matter.
     moment : TimeFunction
         Moment about the direction [N m].
     """
@@ -68,7 +69,7 @@ class Unbalance(Part):
     angle : float
         Angular place on the ring, counter-clockwise from its own x axis [rad].
     axial_position : float or None
-        Axial place in the ring's frame [m], of which two make a couple; None: 0.
+        Axial place in the ring's frame [m]; two unbalances at different places make a couple. None: 0.
     """
 
     ring: RingName
@@ -81,8 +82,9 @@ class Unbalance(Part):
 class TableForce(Part):
     """A force on a ring that depends on its place along a direction: springs that stiffen, magnetic pull, seals.
 
-    It acts on the ring's centre of mass. Between the points of the table it is straight, and goes on straight
-    beyond its ends; a damper acts along the same direction. Runs, equilibria, stiffness and energies have it.
+    It acts on the ring's centre of mass. It is linear between the points of the table and continues its first and
+    last piece beyond them; a damper acts along the same direction. Runs, equilibria, stiffness and energies
+    include it.
 
     Attributes
     ----------
@@ -91,9 +93,9 @@ class TableForce(Part):
     direction : tuple of three floats
         Direction along x, y, z [1]; its length does not matter.
     places : tuple of float
-        Places of the ring along the direction, 0 where the scene puts it: two or more, rising [m].
+        Displacements of the ring from its place in the scene, along the direction: two or more, increasing [m].
     forces : tuple of float
-        Force along the direction at each place [N]: falling for a spring, rising for a pull.
+        Force along the direction at each place [N]: decreasing for a spring, increasing for a magnetic pull.
     damping : float
         Damping along the direction [N s/m].
 

@@ -30,10 +30,10 @@ _ZERO_CELSIUS = 273.15
 
 @dataclass(frozen=True, kw_only=True)
 class Lubricant(Part):
-    """An oil at its temperature, how much of it there is, and which of its effects count.
+    """An oil at its temperature, how much of it there is, and which of its effects are computed.
 
-    Its traction takes the place of the scene's friction law in the contacts of balls and races. A grease counts as
-    its base oil, with the layer of it that the balls leave on the track.
+    Its traction replaces the scene's friction law in the contacts of balls and races, unless ``traction`` is
+    False. For a grease give its base oil, with the layer of it that the balls leave on the track.
 
     Attributes
     ----------
@@ -60,23 +60,23 @@ class Lubricant(Part):
     roughness : float
         Root mean square roughness of both surfaces together [m].
     oil_layer : OilLayer
-        Free oil in front of a contact [m], which bounds its film; ``"flooded"``: as much as the film asks for.
+        Free oil in front of a contact [m], which bounds its film; ``"flooded"``: as much as the film needs.
     hysteresis : float
         Share of the elastic work that the rolled-over steel loses [1].
     slip_floor : float
-        Slip speed that softens the onset of traction, numerical [m/s]; more of it makes runs faster and torque
-        smaller.
+        Lower bound of the slip speed over which traction rises, numerical [m/s]; larger values make runs faster
+        and torque smaller.
     damping_frequency : float or None
-        Frequency at which the film's damping is taken [Hz]; None: at the contacts' own frequencies.
+        Frequency at which the film's damping is taken [Hz]; None: the contacts' own.
     reference_speed : float or None
-        Relative speed of the rings for which the film is made [rad/s]; None: the largest of the drive.
+        Relative speed of the rings for which films are computed [rad/s]; None: the largest that is given.
     reference_load : float or None
-        Contact load for which the film is made [N]; None: that of the equilibrium.
+        Contact load for which films are computed [N]; None: that of the equilibrium.
     fill : float
-        Share of oil in the way of the balls for their drag [1], 0 to 1.
+        Volume share of oil in the space through which balls move, for their drag [1], 0 to 1; 0: no drag.
     film, damping, traction, rolling : bool
-        Whether the film separates the surfaces, damps their approach, takes the place of dry friction, and resists
-        rolling.
+        Whether the film separates the surfaces, damps their approach, replaces dry friction by its traction, and
+        resists rolling.
 
     Examples
     --------
@@ -129,7 +129,7 @@ class Lubricant(Part):
         ------
         SceneError
             An argument is not a name or a temperature. Whether the name is known and the temperature lies in its
-            range is looked at with the scene.
+            range is checked with the scene.
         """
         if not isinstance(oil, str):
             raise SceneError("oil", repr(oil), "a named oil, as ballrace.lubricants() lists them")
@@ -184,7 +184,7 @@ class OilProperties:
 
 @dataclass(frozen=True, kw_only=True)
 class NamedOil:
-    """An oil that a scene may have by its name.
+    """An oil that a scene may name.
 
     Attributes
     ----------
@@ -209,7 +209,7 @@ class NamedOil:
 
 
 def lubricants() -> tuple[NamedOil, ...]:
-    """Return the oils that a scene may have by name, with their numbers and sources.
+    """Return the oils that a scene may name, with their numbers and sources.
 
     Examples
     --------
@@ -221,12 +221,12 @@ def lubricants() -> tuple[NamedOil, ...]:
 
 
 def chosen(lubricant: str | Lubricant | None, temperature_c: float | None) -> Lubricant | None:
-    """Return the lubricant that a function's two arguments mean.
+    """Return the lubricant given by the two arguments of a function.
 
     Raises
     ------
     SceneError
-        A name goes without a temperature, a temperature without a name, or an argument is something else.
+        A name without a temperature, a temperature without a name, or an argument of another type.
     """
     if isinstance(lubricant, str):
         if temperature_c is None:
@@ -241,7 +241,7 @@ def chosen(lubricant: str | Lubricant | None, temperature_c: float | None) -> Lu
         )
     if temperature_c is not None:
         has = "there is no lubricant" if lubricant is None else "a Lubricant has its own"
-        raise SceneError("temperature_c", repr(temperature_c), f"left away, since {has}")
+        raise SceneError("temperature_c", repr(temperature_c), f"absent, since {has}")
     return lubricant
 
 

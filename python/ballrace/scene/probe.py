@@ -67,8 +67,8 @@ class MotionProbe(Variant, tag="motion"):
     body : str
         ``outer``, ``inner`` or a ball such as ``row0.ball3``.
     components : tuple of Component, or None
-        Which of them; None: all twelve, of a ring that may tilt also those of its tilts, of a ball that
-        spins freely also those about x and y.
+        Which of them; None: the twelve of every body, for a ring that may tilt also those of its tilts, for a
+        ball that spins freely also those about x and y.
     """
 
     body: str
@@ -77,7 +77,7 @@ class MotionProbe(Variant, tag="motion"):
 
 @dataclass(frozen=True, kw_only=True)
 class ContactsProbe(Variant, tag="contacts"):
-    """What happens between balls and races: columns ``<probe>.ball3.outer.load`` and so on, as points in time.
+    """Quantities of the contacts of balls and races: ``<probe>.ball3.outer.load`` and so on, as points in time.
 
     Attributes
     ----------
@@ -119,7 +119,7 @@ class EnergyProbe(Variant, tag="energy"):
 class TorqueProbe(Variant, tag="torque"):
     """Friction torque about z that the balls put on each ring: ``<probe>.outer``, ``<probe>.inner`` [N m].
 
-    It is filtered, and takes an evaluation of the model at every point that the filter reads: a run of the wheel
+    It is filtered, and costs an evaluation of the model at every point that the filter reads: a run of the wheel
     bearing takes a sixth longer.
     """
 
@@ -128,9 +128,8 @@ class TorqueProbe(Variant, tag="torque"):
 class MomentsProbe(Variant, tag="moments"):
     """Moments about x and y that the balls put on the rings, each about its own centre, as points in time.
 
-    The columns are ``<probe>.outer.x``, ``<probe>.outer.y``, ``<probe>.inner.x`` and ``<probe>.inner.y`` [N
-    m]. What keeps
-    a ring from tilting carries them.
+    The columns are ``<probe>.outer.x``, ``<probe>.outer.y``, ``<probe>.inner.x`` and ``<probe>.inner.y`` [N m].
+    The support that keeps a ring from tilting carries them.
     """
 
 
@@ -155,9 +154,9 @@ class LubricationProbe(Variant, tag="lubrication"):
     ``<probe>.friction_torque`` [N m], ``<probe>.slip_power``, ``rolling_power``, ``damping_power`` and
     ``drag_power`` [W].
 
-    The torque is that of the row's balls against the motion of the inner ring, positive for either direction; a
-    :class:`TorqueProbe` has it with the sign of its axis. Powers are of both races together. Film and λ are not
-    a number where the oil's effects are all switched off.
+    The torque is that of the row's balls on the inner ring, positive against its motion whichever way it turns; a
+    :class:`TorqueProbe` has it with its sign about z. Powers are of both races together. Film and λ are NaN where
+    all effects of the oil are switched off.
 
     Attributes
     ----------
@@ -170,10 +169,10 @@ class LubricationProbe(Variant, tag="lubrication"):
 
 @dataclass(frozen=True, kw_only=True)
 class SlicesProbe(Variant, tag="slices"):
-    """Forces of the single slices of chosen contacts at chosen times; a table beside the signals.
+    """Forces of the single slices of chosen contacts at chosen times; a table in addition to the signals.
 
-    ``out.slices`` has a line a slice: ``probe``, ``row``, ``ball``, ``race``, ``time`` [s], its axial place in the
-    ball ``zeta`` and in the ring ``z`` [m], its ``width`` and ``penetration`` [m], and its ``force`` [N].
+    ``out.slices`` has a line for each slice: ``probe``, ``row``, ``ball``, ``race``, ``time`` [s], its axial place
+    in the ball ``zeta`` and in the ring ``z`` [m], its ``width`` and ``penetration`` [m], and its ``force`` [N].
 
     Attributes
     ----------

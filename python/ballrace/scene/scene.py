@@ -65,17 +65,17 @@ class Scene(Part):
     friction : Friction
         Friction of balls and races.
     lubricant : Lubricant or None
-        Oil of balls and races, whose traction takes the place of ``friction``; None: they are dry.
+        Oil of balls and races, whose traction replaces ``friction``; None: they are dry.
     spin : Spin or None
-        How balls spin. ``"axial"``, or None: about the bearing's axis (of a ring that tilts, its own), one state
-        a ball. ``"free"``: about any axis, three states a ball; at a contact angle balls then roll and pivot by
-        friction. At a contact angle of 0 both are the same.
+        How balls spin. ``"axial"``, or None: about the bearing's axis, at contacts with a ring that tilts about
+        that ring's axis, one state for each ball. ``"free"``: about any axis, which follows from friction, three
+        states for each ball. At a contact angle of 0 both are the same.
     cage : Cage or None
         Cage; None: the balls are not linked.
     drive : Drive
         What turns the inner ring.
     outer_speed : TimeFunction or None
-        Given speed of the outer ring [rad/s], counter-clockwise about z; may not jump. Its waviness, texture and
+        Given speed of the outer ring [rad/s], counter-clockwise about z; must not jump. Its waviness, texture and
         defects turn with it; loads, gravity, its support and the axes of motion probes do not. None: it stands,
         or turns as its support lets it.
     gravity : tuple of three floats
@@ -91,10 +91,11 @@ class Scene(Part):
     defects : mapping of str to Defect
         Defects by name.
     probes : mapping of str to Probe
-        Probes by name. None: the motion of the outer ring if it can move along x, y or z, else of the inner
-        ring, in the directions that can move; where both are held, the loads of all contacts (``row0`` and so on).
+        Probes by name. Empty: the motion of the outer ring if forces can move it along x, y or z, else of the
+        inner ring, in the directions that can move; where both are held or follow given motions, the loads of all
+        contacts (``row0`` and so on).
     approximations : Approximations
-        What is given up for speed; nothing by default.
+        Approximations that make runs faster; none by default.
     solver : Solver
         Options of the integrator.
 
@@ -215,7 +216,7 @@ class Scene(Part):
         return self.from_json(self._document())
 
     def doubts(self) -> tuple[str, ...]:
-        """Check the scene and return what is unusual about its numbers and probes, of an ordinary bearing nothing.
+        """Check the scene and return what is unusual about its numbers and probes; empty for an ordinary bearing.
 
         Runs, static solutions and campaigns warn of the same (:class:`ballrace.SceneWarning`), and of contacts
         beyond the static load rating.
@@ -230,8 +231,8 @@ class Scene(Part):
     def placed(self) -> Scene:
         """Check the scene and return it with a number for the axial place of every defect, as runs have it.
 
-        What is to lie where the contact runs (``axial_offset="contact"``) is placed by the static equilibrium, or
-        at the nominal contact angle where there is none or no load. ``out.scene`` of a run is placed already.
+        Defects with ``axial_offset="contact"`` are placed by the static equilibrium, or at the nominal contact
+        angle where there is no equilibrium or no load. ``out.scene`` of a run already has these numbers.
 
         Raises
         ------
@@ -277,13 +278,14 @@ class Scene(Part):
         ----------
         changes : mapping of str to object
             Paths such as ``loads.axial.force`` or ``rows[0].clearance``, and new values: numbers, text,
-            lists, or parts of a scene. ``defects.new`` adds an entry to loads, moments, unbalances, table_forces,
-            defects or probes and takes the whole of it; to remove one, use :func:`dataclasses.replace`.
+            lists, or parts of a scene. A path such as ``defects.new`` adds an entry to loads, moments, unbalances,
+            table_forces, defects or probes, and its value is the whole entry; to remove one, use
+            :func:`dataclasses.replace`.
 
         Raises
         ------
         SceneError
-            A path leads nowhere, or the new scene is not usable.
+            A path does not exist, or the new scene is not usable.
         """
         if not isinstance(changes, Mapping):
             raise SceneError("changes", repr(changes), "new values by their paths")

@@ -26,22 +26,22 @@ class Solver(Part):
     Attributes
     ----------
     method : Method
-        The method. ``"adams"`` takes one evaluation a step and a third to a fifth of those that explicit pairs
-        take for the same error; friction, however stiff, does not shorten its steps as it does those of explicit
-        pairs.
+        The method. ``"adams"`` takes one evaluation in each step, and a third to a fifth of the evaluations that
+        the explicit Runge-Kutta pairs take for the same error; stiff friction does not shorten its steps.
     rtol : float
         Relative tolerance [1], 1e-12 to 1e-1; each kind of state has its scale from the scene.
     first_step : float or None
         First step [s]; None: Hairer's estimate.
     max_step : float or None
-        Largest step [s]; None: no limit but the one below.
+        Largest step [s]; None: no limit other than ``frequency_cap``.
     frequency_cap : bool
-        Whether the step is also kept below what the method's stability and accuracy ask for: a share of the
-        period of the highest contact frequency, less where contacts vibrate undamped (``provenance.step_limit``).
-        Without it, loose tolerances report success with accelerations wrong by 30 % and more.
+        Whether the step is also kept below a share of the period of the highest contact frequency that the
+        method's stability and accuracy require, smaller where contacts vibrate undamped
+        (``provenance.step_limit``). Without it, runs with loose tolerances succeed with accelerations wrong by 30
+        % and more.
     reduce : bool
         Whether a run leaves out what does not change the motion: directions without forces, mirror images, slices
-        where a closed form says the same.
+        where a closed form gives the same force.
     """
 
     method: Method = "adams"

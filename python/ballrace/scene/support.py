@@ -29,12 +29,12 @@ class Spring(Variant, tag="spring"):
 
 @dataclass(frozen=True)
 class Given(Variant, tag="given", wraps=True):
-    """A ring follows a given motion, in a direction along an axis or a tilt; about z a speed prescribes it.
+    """A ring follows a given motion along an axis or of a tilt; not about z, where a speed is given.
 
     Attributes
     ----------
     motion : TimeFunction
-        Its place in time [m], of tilts [rad]: a number, a sine or a spline.
+        Its place over time [m], of tilts the angle [rad]: a number, a sine or a spline.
     """
 
     motion: TimeFunction
@@ -48,8 +48,8 @@ Mount = Literal["free", "fixed"] | Spring | Given
 class CoupledSupport(Part):
     """Springs and dampers between all directions of a ring, in the order x, y, z, tilt_x, tilt_y, theta.
 
-    Both matrices are symmetric and positive semidefinite; rows and columns of a driven rotation are 0.
-    Directions that are fixed stay where they are.
+    Both matrices are symmetric and positive semidefinite; row and column of theta are 0 where the ring's speed is
+    given. Fixed directions stay fixed.
 
     Attributes
     ----------
@@ -58,7 +58,7 @@ class CoupledSupport(Part):
     damping : 6 x 6 numbers
         Damping, the same times seconds [N s/m], [N s/rad], [N m s/rad].
     axial_position : float
-        Place on the ring's axis that they hold, in the ring's frame [m].
+        Axial place of the point of the ring's axis on which they act, in the ring's frame [m].
     """
 
     stiffness: tuple[tuple[float, ...], ...]
@@ -68,7 +68,7 @@ class CoupledSupport(Part):
 
 @dataclass(frozen=True, kw_only=True)
 class Support(Part):
-    """How a body is supported on the inertial frame, a direction each.
+    """How a body is supported on the inertial frame, direction by direction.
 
     An absent direction is fixed for the outer ring, free for the inner ring and the balls; an absent tilt is
     fixed.
@@ -78,11 +78,11 @@ class Support(Part):
     x, y, z : Mount or None
         Along the axes.
     theta : Mount or None
-        About z. Absent for the inner ring when a given speed drives it.
+        About z; absent for a ring whose speed is given.
     tilt_x, tilt_y : Mount or None
-        Of a ring, its tilts about x and y; absent: fixed.
+        Tilts about x and y, of rings only; absent: fixed.
     coupled : CoupledSupport or None
-        Of a ring, springs and dampers between all directions, beside those above.
+        Springs and dampers between all directions, in addition to those above; of rings only.
     """
 
     x: Mount | None = None

@@ -14,25 +14,25 @@ class Texture(Part):
     """Many small waves around the races and balls of a row, drawn from a seed.
 
     A wave of order n has the amplitude ``a * (30 / n) ** slope`` times a random number of Rayleigh's distribution,
-    and a random phase, so that heights are Gaussian; a contact averages waves that are not longer than itself. The
-    same seed is the same bearing, whatever else changes. Needs plain grooves.
+    and a random phase, so that heights are Gaussian; contacts average waves over their width. The same seed gives
+    the same surfaces, whatever else changes. Needs plain grooves: no profiles, arches or rounded shoulders.
 
     Attributes
     ----------
     outer, inner : float
         Amplitude a of the races at order 30 [m], 0 to 1e-6: quiet bearings of some 50 mm have 0.2e-9 to 5e-9.
     ball : float
-        The same of the balls [m]. As good as the races wavelength by wavelength is a hundredth of theirs or so,
-        (D / 2R) ** slope with the ball diameter D and the race's radius R.
+        The same of the balls [m]. Balls as smooth as a race of radius R at equal wavelengths have (D / 2R) **
+        slope of its amplitude, with the ball diameter D: some hundredth.
     slope : float
-        How fast amplitudes fall with the order [1], 0.5 to 4: measured ones with 1.5 to 2.5.
+        Exponent by which amplitudes fall with the order [1], 0.5 to 4; measured ones have 1.5 to 2.5.
     orders : tuple of two ints, or None
         Lowest and highest order on the races, 2 to 20 000; None: from 2 to waves half as long as a contact
-        is wide. Balls end at their own such order, if that is lower.
+        is wide. On balls the highest order is that of waves as short on them, if it is lower.
     seed : int
-        What the bearing is drawn from, 0 to 2**53 - 1.
+        Seed of phases and amplitudes, 0 to 2**53 - 1.
     reference_load : float or None
-        Load of a contact whose width averages the waves [N]; None: that of the equilibrium at the start.
+        Load of the contact over whose width waves are averaged [N]; None: that of the equilibrium at the start.
 
     Examples
     --------

@@ -64,7 +64,7 @@ class Table(Variant, tag="table"):
     times : tuple of float
         Times, not decreasing [s].
     values : tuple of float
-        A value a time [unit of the field].
+        Value at each time [unit of the field].
     """
 
     times: tuple[float, ...]
@@ -73,16 +73,16 @@ class Table(Variant, tag="table"):
 
 @dataclass(frozen=True, kw_only=True)
 class Spline(Variant, tag="spline"):
-    """A cubic between points that has their rates there (Hermite's interpolation), beyond them a straight line.
+    """Cubic between points, with the given rates at the points (Hermite interpolation); linear beyond them.
 
     Attributes
     ----------
     times : tuple of float
         Times, strictly increasing [s].
     values : tuple of float
-        A value a time [unit of the field].
+        Value at each time [unit of the field].
     rates : tuple of float
-        Its rate of change, a value a time [unit of the field / s].
+        Rate of change at each time [unit of the field / s].
     """
 
     times: tuple[float, ...]
@@ -96,12 +96,12 @@ class Spline(Variant, tag="spline"):
         Parameters
         ----------
         times, values : array-like of float, shape (n,)
-            Times, strictly increasing [s], and a value a time; two or more.
+            Times, strictly increasing [s], and the value at each; two or more.
 
         Raises
         ------
         ValueError
-            They are no such points.
+            The times do not increase, or the arrays differ in length or have fewer than two numbers.
 
         Examples
         --------

@@ -1,4 +1,4 @@
-"""How fast the rings of a scene turn, as far as it says so."""
+"""How fast the rings of a scene turn, as far as it gives their speeds."""
 
 from __future__ import annotations
 
@@ -24,10 +24,10 @@ def constant_speeds(scene: Scene) -> tuple[float, float] | None:
 
 
 def relative_speed(scene: Scene, t: float | None = None) -> float | None:
-    """Return how fast the inner ring turns against the outer at a time [rad/s]; None of one that a torque drives.
+    """Return the speed of the inner ring relative to the outer at a time [rad/s]; None where a torque drives it.
 
-    That is what fault frequencies go with, the speed of the shaft where the outer ring stands. Without a time it
-    is None as well where a speed changes.
+    Fault frequencies are proportional to it; it is the speed of the shaft where the outer ring stands. Without a
+    time it is also None where a speed changes.
     """
     if t is None:
         steady = constant_speeds(scene)

@@ -1,4 +1,4 @@
-"""Signals looked at as vibration analysts do: spectra, envelopes, orders, kurtograms and fault bands.
+"""Analysis of vibration signals: spectra, envelopes, orders, kurtograms and fault bands.
 
 All functions take a run, a measurement, a recording, a channel of one (``record.channel("DE")``), or a plain array
 with its sampling rate ``fs`` in hertz, and return ``(f, value)`` as scipy does. Amplitude spectra are taken under

@@ -188,6 +188,6 @@ def _rates(turns: NDArray[np.float64], per_turn: int | None) -> tuple[int, int]:
         raise SceneError(
             "angle",
             text,
-            "one without the time in which the shaft all but stands, as turning(angle) cuts it",
+            "one without the time in which the shaft almost stands; turning(angle) returns the rest",
         )
     return rate, filtered

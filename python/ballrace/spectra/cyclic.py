@@ -1,10 +1,10 @@
 """Cyclic coherence: what repeats at a rate without being a tone, in every band by itself.
 
-Noise that swells at a rate α, as slipping blows do, has components f + α/2 and f − α/2 that go together. Over many
-pieces of the signal their coherence tells how much, whatever the level in the band is, so that neither resonances
-nor a leaning spectrum matter (J. Antoni, *Cyclic spectral analysis in practice*, Mech. Syst. Signal Process. 21
-(2007) 597). Its mean over a band is the improved envelope spectrum (D. Abboud, M. Elbadaoui, W. A. Smith, R. B.
-Randall, Mech. Syst. Signal Process. 114 (2019) 604).
+Noise whose power varies at a rate α, as that of impacts with random slip, has correlated components f + α/2 and f
+− α/2. Over many pieces of the signal their coherence measures it independently of the level in the band, so that
+neither resonances nor a sloping spectrum matter (J. Antoni, *Cyclic spectral analysis in practice*, Mech. Syst.
+Signal Process. 21 (2007) 597). Its mean over a band is the improved envelope spectrum (D. Abboud, M. Elbadaoui, W.
+A. Smith, R. B. Randall, Mech. Syst. Signal Process. 114 (2019) 604).
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ def cyclic_coherence(
     x : Signals, Measurement, Recording, Channel or array_like, shape (n,)
         Signal; of a record ``outer.ay`` if there is one, else its first column.
     rates : array_like, shape (k,)
-        Cyclic frequencies, above 0 and below fs/2 [Hz]; a record of ``T`` seconds tells those 1/T apart.
+        Cyclic frequencies, above 0 and below fs/2 [Hz]; a record of ``T`` seconds resolves those 1/T apart.
     fs : float, optional
         Sampling rate of an array [Hz].
     length : int, optional
@@ -53,7 +53,7 @@ def cyclic_coherence(
     f : ndarray, shape (m,)
         Frequencies, from 0 to fs/2 [Hz]: the higher one of each pair, the other being a rate below it.
     value : ndarray, shape (k, m)
-        From 0 to 1; of noise that does not swell one over the number of pieces, in the mean.
+        From 0 to 1; for noise without modulation on average one over the number of pieces.
 
     Raises
     ------

@@ -1,8 +1,8 @@
 """Envelopes of a band of a signal, and their spectra.
 
-A defect is heard in bursts: each impact rings at the frequencies of the structure, and the blows come at the
-rate of the defect. The squared envelope of the ringing keeps the blows and drops the ringing, and its
-spectrum has a line at the rate of the blows and at its multiples (J. Antoni, R. B. Randall, *The spectral
+A defect excites bursts: each impact rings at the frequencies of the structure, and the impacts come at the
+rate of the defect. The squared envelope keeps the impacts without the ringing, and its
+spectrum has lines at the rate of the impacts and its multiples (J. Antoni, R. B. Randall, *The spectral
 kurtosis*, Mech. Syst. Signal Process. 20 (2006) 308, on the squared envelope in particular).
 """
 
@@ -108,7 +108,7 @@ def log_envelope_spectrum(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the spectrum of the logarithm of the squared envelope of a signal in a band.
 
-    A few large blows of something else fill all lines of a squared envelope; of its logarithm they are a few
+    A few large impacts of something else fill all lines of a squared envelope; of its logarithm they are a few
     samples among many (P. Borghesani, J. Antoni, Mech. Syst. Signal Process. 90 (2017) 378).
 
     Parameters
@@ -152,7 +152,7 @@ def envelope_spectrum(
         As for :func:`squared_envelope`.
     squared : bool
         True takes the squared envelope, as :func:`squared_envelope_spectrum` does; False its root, as MATLAB's
-        ``envspectrum`` does, whose lines are in the unit of ``x`` and which weighs single large blows less.
+        ``envspectrum`` does, whose lines are in the unit of ``x`` and which weighs single large impacts less.
 
     Returns
     -------

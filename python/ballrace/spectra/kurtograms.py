@@ -1,6 +1,6 @@
 """The fast kurtogram: in which band a signal is most impulsive.
 
-A blow rings for a short time at the frequencies of the structure. In a band that holds this ringing and little
+An impact rings for a short time at the frequencies of the structure. In a band that holds this ringing and little
 else, the signal is high for short times, so that the kurtosis of its complex envelope is large: the mean of its
 fourth power over the square of that of its second, less 2. Of Gaussian noise it is 0, of a tone −1. The bands are
 those of a 1/3-binary tree: the frequencies from 0 to fs/2 in 1, 2, 3, 4, 6, 8, 12, … equal parts, each by filter
@@ -37,13 +37,13 @@ _TAPS = 16
 """Order of the filter that halves a band; as in the paper. One that takes a third has half as much again."""
 
 _FEWEST = 64
-"""Samples of an envelope, at least, by which its kurtosis is told."""
+"""Samples of an envelope that its kurtosis needs at least."""
 
 _SILENT = 1e-24
 """Part of the largest power below which there is rounding alone."""
 
 _DRAWN = 20_000
-"""Kurtoses of noise, at least, by which chance is told."""
+"""Kurtoses of noise that the limit of chance is computed from, at least."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -88,8 +88,8 @@ def kurtogram(x: Given, fs: float | None = None, narrowest: float | None = None)
     fs : float, optional
         Sampling rate of an array [Hz].
     narrowest : float, optional
-        Width that no band is below [Hz]. The envelope of a band holds lines up to its width, so ask for some
-        multiples of the highest rate that is looked for. By default bands are halved as long as their
+        Least width of a band [Hz]. The envelope of a band holds lines up to its width, so give some
+        multiples of the highest rate of interest. By default bands are halved as long as their
         envelopes have 64 samples.
 
     Returns
@@ -104,14 +104,14 @@ def kurtogram(x: Given, fs: float | None = None, narrowest: float | None = None)
 
     Examples
     --------
-    Blows that ring at 3 kHz, in noise:
+    Impacts that ring at 3 kHz, in noise:
 
     >>> import ballrace as br
     >>> fs, rng = 16_000.0, np.random.default_rng(1)
     >>> t = np.arange(32_000) / fs
     >>> since = t % 0.01
-    >>> blows = np.exp(-800.0 * since) * np.sin(2 * np.pi * 3000.0 * since)
-    >>> found = br.spectra.kurtogram(blows + 0.3 * rng.normal(size=t.size), fs, narrowest=500.0)
+    >>> impacts = np.exp(-800.0 * since) * np.sin(2 * np.pi * 3000.0 * since)
+    >>> found = br.spectra.kurtogram(impacts + 0.3 * rng.normal(size=t.size), fs, narrowest=500.0)
     >>> low, high = found.best
     >>> low < 3000.0 < high
     True
@@ -150,7 +150,7 @@ def spectral_kurtosis(
     fs : float, optional
         Sampling rate of an array [Hz].
     length : int, optional
-        Samples of a piece, at most a 16th of the signal: longer than blows ring, shorter than their distance. By
+        Samples of a piece, at most a 16th of the signal: longer than impacts ring, shorter than their distance. By
         default a 64th.
     false_alarm : float
         Share of frequencies at which Gaussian noise exceeds the limit, 0.001 to 0.2.
@@ -171,12 +171,12 @@ def spectral_kurtosis(
 
     Examples
     --------
-    Blows that ring at 3 kHz, in noise:
+    Impacts that ring at 3 kHz, in noise:
 
     >>> fs, rng = 16_000.0, np.random.default_rng(1)
     >>> since = (np.arange(64_000) / fs) % 0.03
-    >>> blows = np.exp(-800.0 * since) * np.sin(2 * np.pi * 3000.0 * since)
-    >>> f, value, limit = spectral_kurtosis(blows + 0.3 * rng.normal(size=since.size), fs, length=128)
+    >>> impacts = np.exp(-800.0 * since) * np.sin(2 * np.pi * 3000.0 * since)
+    >>> f, value, limit = spectral_kurtosis(impacts + 0.3 * rng.normal(size=since.size), fs, length=128)
     >>> bool(abs(f[np.argmax(value)] - 3000.0) < 200.0), bool(value.max() > limit)
     (True, True)
     """

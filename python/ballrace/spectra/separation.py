@@ -27,10 +27,10 @@ def separated(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the tones of a signal and the rest, by discrete/random separation.
 
-    What can be foretold from a piece that is over by then is a tone of shaft, gears or mains; blows that slip, and
-    noise, cannot. Over pieces with one between them, the transfer function from the earlier one to the later is
+    Tones of shaft, gears or mains can be predicted from an earlier piece of the signal; impacts with random slip
+    and noise cannot. Over pieces with one between them, the transfer function from the earlier one to the later is
     near 1 at tones and near 0 elsewhere, and its magnitude is the filter (J. Antoni, R. B. Randall, *Unsupervised
-    noise cancellation for vibration signals: part II*, Mech. Syst. Signal Process. 18 (2004) 103). Blows without
+    noise cancellation for vibration signals: part II*, Mech. Syst. Signal Process. 18 (2004) 103). Impacts without
     slip, as simulated ones may be, are tones as well.
 
     Parameters
@@ -40,8 +40,8 @@ def separated(
     fs : float, optional
         Sampling rate of an array [Hz].
     length : int, optional
-        Samples of a piece: what rings or slips within it is no tone, and tones are told apart that are some
-        fs/length apart. By default a 32nd of the signal.
+        Samples of a piece: it has to be longer than impacts ring, and resolves tones some fs/length apart. By
+        default a 32nd of the signal.
 
     Returns
     -------

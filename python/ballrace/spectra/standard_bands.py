@@ -1,4 +1,4 @@
-"""Root mean square velocities in the bands of a standard, as makers judge bearings by."""
+"""Root mean square velocities in the bands of the standard by which makers judge bearings."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def bands_iso15242(
     unit: str | None = None,
     bands: Sequence[tuple[float, float]] = BANDS_ISO15242,
 ) -> tuple[VelocityBand, ...]:
-    """Return the velocity in the three bands by which ISO 15242-2 tells a ball bearing's vibration.
+    """Return the velocity in the three bands in which ISO 15242-2 states a ball bearing's vibration.
 
     The standard measures the outer ring's radial velocity while the inner ring turns with 1800 1/min under
     thrust; :func:`ballrace.noise_test` simulates that. Here the spectrum of the whole record, without its mean, is

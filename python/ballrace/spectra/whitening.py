@@ -1,4 +1,4 @@
-"""Spectra made flat, so that the loudest tone or resonance does not hide what is faint."""
+"""Spectra made flat, so that the strongest tone or resonance does not hide what is weak."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ def prewhitened(
 ) -> NDArray[np.float64]:
     """Return a signal whose spectrum is flat, its phases as they were.
 
-    By default prewhitening by the cepstrum with all of it but zero quefrency set to zero, so that every
-    amplitude is one (P. Borghesani, P. Pennacchi, R. B. Randall, N. Sawalhi, R. Ricci, Mech. Syst. Signal
-    Process. 36 (2013) 370): tones of shaft and gears and resonances of the structure weigh no more than
-    anything else, and blows stand out; but blows without any slip, as simulated ones may be, are tones as well.
-    With a width, only what is wider is made flat.
+    By default prewhitening by the cepstrum with all of it but zero quefrency set to zero, so that every amplitude
+    is one (P. Borghesani, P. Pennacchi, R. B. Randall, N. Sawalhi, R. Ricci, Mech. Syst. Signal Process. 36 (2013)
+    370): tones of shaft and gears and resonances of the structure weigh no more than anything else, and impacts
+    stand out; but impacts without any slip, as simulated ones may be, are tones as well. With a width, only
+    features of the spectrum wider than it are made flat.
 
     Parameters
     ----------
@@ -41,7 +41,8 @@ def prewhitened(
     fs : float, optional
         Sampling rate of an array [Hz].
     width : float, optional
-        Frequencies over which the running root mean square of the spectrum is taken that it is divided by [Hz].
+        Width of the running root mean square that the spectrum is divided by [Hz]; by default each amplitude is
+        divided by itself.
 
     Returns
     -------
@@ -55,7 +56,7 @@ def prewhitened(
 
     Examples
     --------
-    A single blow under a tone a hundred times as high:
+    A single impact under a tone a hundred times as high:
 
     >>> t = np.arange(4096) / 4096.0
     >>> x = 100.0 * np.sin(2 * np.pi * 64.0 * t)

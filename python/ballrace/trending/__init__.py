@@ -1,4 +1,4 @@
-"""Records of one bearing over time: a table of what tells damage, and from when on it is another machine.
+"""Records of one bearing over time: a table of signs of damage, and when they depart from the baseline.
 
 ==============  ===========================================================
 ``quantities``  numbers of one record

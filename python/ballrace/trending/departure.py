@@ -1,4 +1,4 @@
-"""When a quantity departs from what it was at first."""
+"""When a quantity departs from its baseline."""
 
 from __future__ import annotations
 

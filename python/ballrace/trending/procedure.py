@@ -47,7 +47,7 @@ def trend(
     machine: Machine | None = None,
     seed: int = 0,
 ) -> Trend:
-    """Follow a bearing over its records: a table, and the first record that departs from how it was.
+    """Follow a bearing over its records: a table, and the first record that departs from the baseline.
 
     Of every record :func:`ballrace.diagnose` gives verdict, z and strength of each part, and the severity. Root
     mean square, velocity, crest factor, kurtosis and the accelerations at the rates of the faults are compared
@@ -59,13 +59,13 @@ def trend(
     Parameters
     ----------
     records : iterable of Signals, Measurement, Recording, Channel or array_like
-        In the order of time, one after the other, all at one sampling rate; a generator that reads files will do.
+        In the order of time, all at one sampling rate; a generator that reads files is enough.
     bearing, speed_rpm, outer_rpm, fs, column, unit, row, speed_within, false_alarm, machine, seed
         As of :func:`ballrace.diagnose`.
     times : array_like, shape (n,), optional
-        When they were taken, rising, in any unit; by default 0, 1, 2, …
+        Times of the records, increasing, in any unit; by default 0, 1, 2, …
     baseline : int
-        How many of the first records are known to be good, 3 and more.
+        Number of first records that are known to be healthy, 3 and more.
 
     Returns
     -------
@@ -81,7 +81,7 @@ def trend(
 
     Examples
     --------
-    Noise of one second, in which blows at the rate of the outer race begin with the ninth record:
+    Noise of one second, in which impacts at the rate of the outer race begin with the ninth record:
 
     >>> import ballrace as br, numpy as np
     >>> def taken(k):

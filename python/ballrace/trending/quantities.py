@@ -1,4 +1,4 @@
-"""What is followed over time, of one record."""
+"""Quantities of one record that are followed over time."""
 
 from __future__ import annotations
 

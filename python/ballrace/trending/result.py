@@ -24,12 +24,12 @@ class Trend:
     table : polars.DataFrame
         A row a record: ``time``; ``verdict`` and ``parts`` (joined by +); ``shaft`` [Hz]; ``rms`` [unit of the
         records]; ``velocity`` [mm/s] and ``zone`` of ISO 20816-3; ``<part>.z`` and ``<part>.acceleration`` of
-        ``outer_race``, ``inner_race`` and ``ball``; ``crest_factor`` and ``kurtosis`` in ``band``. Empty is what a
-        record does not tell.
+        ``outer_race``, ``inner_race`` and ``ball``; ``crest_factor`` and ``kurtosis`` in ``band``. Cells are empty
+        where a record has no value.
     baseline : int
         How many of the first records are the baseline.
     limits : mapping of str to float
-        What each quantity would have to exceed twice in a row, by column.
+        Limit that each quantity has to exceed twice in a row to depart, by column.
     departures : mapping of str to int
         The record at which a quantity departs, from 0, by column; only those that do.
     band : tuple of two floats, or None
