@@ -330,22 +330,18 @@ def repeat(
 class Bearing:
     """A scene as tables for :func:`rhs`; callable as ``bearing(t, y)``.
 
+    Whoever measures by it first holds it to ``Model.rhs``, which shows what the equations here leave out.
+
     Parameters
     ----------
     scene : ballrace.Scene
         A scene on fixed slices.
     nodes : int, optional
         Gauss's nodes along a contact's zone instead of the slices.
-
-    Raises
-    ------
-    ValueError
-        The scene asks for something that this module does not have.
     """
 
     def __init__(self, scene: br.Scene, nodes: int | None = None) -> None:
         document: dict[str, Any] = json.loads(scene.to_json())
-        refuse(document)
         self.tables = tables(document)
         if nodes is not None:
             grooves, defects, slices, bodies, common = self.tables
@@ -362,50 +358,6 @@ class Bearing:
     def repeat(self, states: NDArray[np.float64]) -> float:
         """Evaluate many states, shape (states, dim), without Python in between."""
         return float(repeat(states, np.empty(states.shape[1]), *self.tables))
-
-
-def refuse(document: dict[str, Any]) -> None:
-    """Raise where a scene has what the equations here leave out."""
-    rows, contact_of = document["rows"], document["contact"]
-    same = ("ball_count", "ball_diameter", "pitch_diameter", "ball_mass", "ball_inertia")
-    defects = document["defects"].values()
-    wants = {
-        "rows of equal balls": all(row[k] == rows[0][k] for row in rows for k in same),
-        "three balls a row": rows[0]["ball_count"] >= 3,
-        "plain races": not any(
-            row[k]
-            for row in rows
-            for k in (
-                "outer_shoulders",
-                "inner_shoulders",
-                "outer_profile",
-                "inner_profile",
-                "outer_arch",
-                "inner_arch",
-                "outer_waviness",
-                "inner_waviness",
-                "diameter_errors",
-            )
-        ),
-        "free balls": not any(any(row["ball_support"].values()) for row in rows),
-        "fixed slices": "fixed" in contact_of["slices"],
-        "the ISO law": "iso16281" in contact_of["law"],
-        "clamp_pull": contact_of["clamp_pull"],
-        "Coulomb friction": "coulomb" in document["friction"],
-        "a cage without play": document["cage"] is not None and document["cage"]["play"] == 0.0,
-        "a constant speed": isinstance(document["drive"].get("speed"), float),
-        "constant loads": all(isinstance(x["force"], float) for x in document["loads"].values()),
-        "balanced rings": not document["unbalances"],
-        "one plain defect a row, on the outer race": len({x["row"] for x in defects})
-        == len(defects)
-        and all(
-            x["on"] == "outer_race" and x["floor"] is None and isinstance(x["width"], float)
-            for x in defects
-        ),
-    }
-    for want, met in wants.items():
-        if not met:
-            raise ValueError(f"the scene {document['name']!r}: this right-hand side wants {want}")
 
 
 def tables(document: dict[str, Any]) -> tuple[NDArray[Any], ...]:
