@@ -14,8 +14,9 @@ from .. import presets
 from .._features import features
 from ..frequencies.kinematic import of_row
 from ..paper import Zone, zone
+from ..paper.simulations import healthy_at_bottom, slices_of
 from ..run import simulate
-from ..scene import FixedSlices, Scene, SlicesProbe, SpeedDrive
+from ..scene import Scene, SpeedDrive
 from ..signals import Signals
 from ..statics import LoadDistribution, load_distribution
 
@@ -26,7 +27,6 @@ __all__ = ["COLUMN", "Case", "passing", "run_case"]
 
 COLUMN = "outer.ay"
 _FS = 50_000.0
-_SLICES = 120
 
 
 @dataclass(frozen=True)
@@ -87,12 +87,13 @@ def run_case(
     """Run the wheel bearing under an axial load [N]."""
     scene = presets.wheel_bearing(axial_load)
     began = time.perf_counter()
-    out = simulate(scene, duration=duration, fs=_FS, progress=progress or (lambda share: None))
+    out = simulate(scene, duration=duration, fs=_FS, progress=progress)
     seconds = time.perf_counter() - began
-    healthy = scene.replace({"defects": {}})
-    slices = _loaded_slices(healthy)
+    slices = slices_of(healthy_at_bottom(scene), "equilibrium", 0)
     found = zone(slices["z"], slices["width"], slices["force"])
-    return Case(axial_load, out, load_distribution(healthy), slices, found, seconds)
+    return Case(
+        axial_load, out, load_distribution(scene.replace({"defects": {}})), slices, found, seconds
+    )
 
 
 def passing(scene: Scene) -> float:
@@ -100,20 +101,6 @@ def passing(scene: Scene) -> float:
     assert isinstance(scene.drive, SpeedDrive)
     assert isinstance(scene.drive.speed, float)
     return of_row(scene.rows[0]).at(scene.drive.speed / (2.0 * math.pi)).bpfo
-
-
-def _loaded_slices(healthy: Scene) -> dict[str, NDArray[np.float64]]:
-    """Return the slices of a ball of row 0 that stands at -90° in the bearing at rest."""
-    by = -math.pi / 2.0 - healthy.rows[0].start_angle
-    turned = {f"rows[{r}].start_angle": row.start_angle + by for r, row in enumerate(healthy.rows)}
-    probe = SlicesProbe(row=0, balls=(0,), races=("outer",), times=(0.0,))
-    cut = healthy.replace(
-        {**turned, "probes": {"slices": probe}, "contact.slices": FixedSlices(_SLICES)}
-    )
-    out = simulate(cut, duration=1e-6, fs=1e6, settle=0.0, bandwidth=None)
-    table = out.slices
-    assert table is not None
-    return {name: table[name].to_numpy() for name in ("z", "width", "force")}
 
 
 def _mean_impact(signal: NDArray[np.float64], passage: float) -> float:

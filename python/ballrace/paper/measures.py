@@ -16,6 +16,10 @@ ENVELOPE_BAND = (500.0, 20_000.0)
 """Band of the acceleration whose envelope is taken [Hz]."""
 
 
+_WINDOW = 2e-3
+"""Length of a moving rms [s]: many periods of a contact (30 µs), a part of a ball's passage (6 ms)."""
+
+
 def orbit(t: Array, x: Array, y: Array) -> tuple[float, float]:
     """Return the rate [rad/s] and the angle at t = 0 [rad] of a ball's way round, by least squares."""
     rate, angle = np.polyfit(t, np.unwrap(np.arctan2(y, x)), 1)
@@ -95,9 +99,7 @@ def envelope_line(
     return float(2.0 * np.abs(np.mean((envelope - envelope.mean()) * carrier)))
 
 
-def clarity(
-    signal: Array, fs: float, frequency: float, band: tuple[float, float] = ENVELOPE_BAND
-) -> float:
+def clarity(signal: Array, fs: float, frequency: float) -> float:
     """Return how far the squared envelope's line at a frequency stands over what surrounds it.
 
     Noise without a structure gives 4 to 9 dB: the highest of the bins in which the line is sought.
@@ -110,21 +112,19 @@ def clarity(
         Sampling rate [Hz].
     frequency : float
         Frequency of the line [Hz]; its surroundings reach from 0.6 to 1.4 of it.
-    band : tuple of float
-        Band whose envelope is taken [Hz].
 
     Returns
     -------
     float
         Ratio of the line to the median of its surroundings [dB].
     """
-    squared = spectra.squared_envelope(signal, fs, band)
+    squared = spectra.squared_envelope(signal, fs, ENVELOPE_BAND)
     around = spectra.floor(*spectra.spectrum(squared, fs), frequency, 0.4 * frequency)[1]
     highest = spectra.line(squared, fs, frequency, 0.02 * frequency)[1]
     return 20.0 * math.log10(highest / around)
 
 
-def settling_time(t: Array, signal: Array, level: float, window: float = 2e-3) -> float:
+def settling_time(t: Array, signal: Array, level: float) -> float:
     """Return the time from which on the signal's moving rms stays below that of a vibration of an amplitude.
 
     What is seen in a figure as a transient is the envelope of the signal, not its last high sample: after a
@@ -139,19 +139,17 @@ def settling_time(t: Array, signal: Array, level: float, window: float = 2e-3) -
         Uniform times [s] and the signal; distances are from its mean over the last half.
     level : float
         Amplitude [unit of the signal]: the moving rms is held against ``level / sqrt(2)``.
-    window : float
-        Length of the moving rms [s]: many periods of a contact (30 µs), a part of a ball's passage (6 ms).
 
     Returns
     -------
     float
         Middle of the last window above [s]; 0 if there is none.
     """
-    count = max(1, round(window * (t.size - 1) / (t[-1] - t[0])))
+    count = max(1, round(_WINDOW * (t.size - 1) / (t[-1] - t[0])))
     power = np.square(signal - signal[signal.size // 2 :].mean())
     summed = np.concatenate([[0.0], np.cumsum(power)])
     above = np.flatnonzero(summed[count:] - summed[:-count] > count * level**2 / 2.0)
-    return float(t[above[-1]] + window / 2.0) if above.size else 0.0
+    return float(t[above[-1]] + _WINDOW / 2.0) if above.size else 0.0
 
 
 @dataclass(frozen=True)

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from ..errors import SceneError
-from ..model import Model
 from ..run import simulate
-from ..scene import ContactsProbe, FixedSlices, MotionProbe, SlicesProbe
+from ..scene import FixedSlices, MotionProbe, SlicesProbe
+from ..simulation import Simulation
 from ..statics import equilibrium
 from .case import Balls, Case, Dynamic, Snapshot, Static
 from .measures import Array, clarity, envelope_line, impacts, orbit, passages, settling_time, zone
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from ..scene import Component, ContactQuantity, Probe, Scene
+    from ..scene import Component, Scene
     from ..signals import Signals
 
 
@@ -38,16 +38,11 @@ SIGNALS = "point samples, as the paper computed its own: no low-pass before them
 # Of the mean impact: less than this of the start cannot be seen in the figures.
 VISIBLE = 0.05
 _SLICES = 200
-# The sampling rate of a snapshot puts this sample on the instant.
-_SNAPSHOT_SAMPLES = 180
 
 
 def static(scene: Scene) -> Static:
     """Return where the loaded ball of the healthy bearing rests; see :class:`Static`."""
-    turned = {f"rows[{r}].start_angle": row.start_angle for r, row in enumerate(scene.rows)}
-    by = -np.pi / 2.0 - scene.rows[0].start_angle
-    at_rest = scene.replace({"defects": {}, **{k: v + by for k, v in turned.items()}})
-    eq = equilibrium(at_rest)
+    eq = equilibrium(healthy_at_bottom(scene))
     k = _middle(eq.row, eq.angle)
     return Static(
         ball_z=float(eq.z[k]),
@@ -57,23 +52,30 @@ def static(scene: Scene) -> Static:
     )
 
 
-def dynamic(out: Signals, after: float = SETTLED) -> Dynamic:
+def healthy_at_bottom(scene: Scene) -> Scene:
+    """Return the healthy bearing turned so that ball 0 of row 0 is at -90°."""
+    by = -np.pi / 2.0 - scene.rows[0].start_angle
+    turned = {f"rows[{r}].start_angle": row.start_angle + by for r, row in enumerate(scene.rows)}
+    return scene.replace({"defects": {}, **turned})
+
+
+def dynamic(out: Signals) -> Dynamic:
     """Return the features of a run with the columns ``outer.ay``, ``ball.x`` and ``ball.y`` (of row 0).
 
     Raises
     ------
     SceneError
-        No whole passage of a ball fits between ``after`` and the end.
+        No whole passage of a ball fits between :data:`SETTLED` and the end.
     """
     t, signal = out.t, out["outer.ay"]
     count = out.scene.rows[0].ball_count
-    late = t >= after
+    late = t >= SETTLED
     edges = np.empty(0, dtype=np.intp)
     if np.count_nonzero(late) > 1:
         rate, angle = orbit(t[late], out["ball.x"][late], out["ball.y"][late])
-        edges = passages(t, rate, angle, count=count, place=-np.pi / 2.0, after=after)
+        edges = passages(t, rate, angle, count=count, place=-np.pi / 2.0, after=SETTLED)
     if edges.size < 2:
-        wanted = f"at least two passages of balls after {after} s"
+        wanted = f"at least two passages of balls after {SETTLED} s"
         raise SceneError("duration", f"{t.size / out.fs:g} s", wanted)
     found = impacts(signal, edges)
     part = signal[edges[0] : edges[-1]]
@@ -90,59 +92,35 @@ def dynamic(out: Signals, after: float = SETTLED) -> Dynamic:
     )
 
 
-def snapshot(scene: Scene, instant: float = INSTANT, threads: int = 0) -> Snapshot:
-    """Run a scene from the paper's start and return what its balls and slices bear at an instant [s]."""
-    model = Model(scene)
-    probes: dict[str, Probe] = {
-        f"body{i}": MotionProbe(body=body) for i, body in enumerate(model.bodies)
-    }
-    load: tuple[ContactQuantity, ...] = ("load",)
-    for r in range(len(scene.rows)):
-        probes[f"row{r}"] = ContactsProbe(row=r, quantities=load)
-    fs = _SNAPSHOT_SAMPLES / instant
-    out = simulate(
-        scene.replace({"probes": probes}),
-        duration=(_SNAPSHOT_SAMPLES + 2) / fs,
-        fs=fs,
-        start="rolling",
-        threads=threads,
-        bandwidth=None,
-        settle=0.0,
+def snapshot(scene: Scene, threads: int = 0) -> Snapshot:
+    """Run a scene from the paper's start and return what its balls and slices bear at :data:`INSTANT`."""
+    run = Simulation(
+        scene, start="rolling", threads=threads, bandwidth=None, settle=0.0, keep=False
     )
-    now = {name: float(values[_SNAPSHOT_SAMPLES]) for name, values in out.items()}
-    number = {body: i for i, body in enumerate(model.bodies)}
-    state = []
-    for name in model.names:
-        body, _, component = name.rpartition(".")
-        state.append(now[f"body{number[body]}.{component}"])
-
+    run.advance_to(INSTANT)
+    state, load = run.state, run.contacts["load"]
+    now = dict(zip(run.names, state.tolist(), strict=True))
     places = [(r, b) for r, row in enumerate(scene.rows) for b in range(row.ball_count)]
-
-    def of_balls(component: str) -> Array:
-        return np.array([now[f"body{number[f'row{r}.ball{b}']}.{component}"] for r, b in places])
-
-    def loads(race: str) -> Array:
-        return np.array([now[f"row{r}.ball{b}.{race}.load"] for r, b in places])
-
+    x, y, z = (np.array([now[f"row{r}.ball{b}.{axis}"] for r, b in places]) for axis in "xyz")
     balls = Balls(
         row=np.array([r for r, _ in places]),
         ball=np.array([b for _, b in places]),
-        angle=np.arctan2(of_balls("y"), of_balls("x")),
-        z=of_balls("z"),
-        outer_load=loads("outer"),
-        inner_load=loads("inner"),
+        angle=np.arctan2(y, x),
+        z=z,
+        outer_load=load[:, 0],
+        inner_load=load[:, 1],
     )
     k = _middle(balls.row, balls.angle)
-    slices = _slices(scene, np.array(state), int(balls.ball[k]))
+    slices = slices_of(scene, state, int(balls.ball[k]))
     bearing = zone(slices["z"], slices["width"], slices["force"])
-    return Snapshot(balls, k, now[f"body{number['outer']}.z"], bearing, slices)
+    return Snapshot(balls, k, now["outer.z"], bearing, slices)
 
 
-def _slices(scene: Scene, state: Array, ball: int) -> dict[str, Array]:
-    """Return the slices of equal width of a ball of row 0 on the outer race in a state."""
+def slices_of(scene: Scene, start: Array | Literal["equilibrium"], ball: int) -> dict[str, Array]:
+    """Return the slices of equal width of a ball of row 0 on the outer race, in a state or at rest."""
     probe = SlicesProbe(row=0, balls=(ball,), races=("outer",), times=(0.0,))
     cut = scene.replace({"probes": {"slices": probe}, "contact.slices": FixedSlices(count=_SLICES)})
-    out = simulate(cut, duration=1e-6, fs=1e6, start=state, threads=1, settle=0.0, bandwidth=None)
+    out = simulate(cut, duration=1e-6, fs=1e6, start=start, threads=1, settle=0.0, bandwidth=None)
     table = out.slices
     assert table is not None
     names = ("zeta", "z", "width", "penetration", "force")
