@@ -78,15 +78,7 @@ def _life(life: RatingLife | None, why: str) -> dict[str, str]:
         "L₁₀ᵣ, ISO/TS 16281": life.reference,
         "L₁₀ₘᵣ, with its oil": life.modified,
     }
-    return {name: _lasts(life, turns) for name, turns in lives.items() if turns is not None}
-
-
-def _lasts(life: RatingLife, turns: float) -> str:
-    if math.isinf(turns):
-        return "unlimited: no load"
-    hours = life.hours(turns)
-    million = f"{words.number(1e-6 * turns)} million turns"
-    return million if hours is None else f"{words.large(hours)} h ({million})"
+    return {name: words.lasting(life, turns) for name, turns in lives.items() if turns is not None}
 
 
 def _rates(live: Live) -> list[list[str]]:

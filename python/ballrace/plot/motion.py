@@ -10,6 +10,7 @@ from ..errors import SceneError
 from ..scene import MotionProbe
 from ..scene.defect import widest
 from .decimation import min_max
+from .outlines import race_radius
 from .sources import check_columns, check_run
 from .style import COLOURS, DASHES, finished
 
@@ -166,11 +167,8 @@ def _chosen(
         known = ", ".join(races) or "none here"
         raise SceneError("defect", repr(defect), f"a defect of a race: {known}")
     found = races[name]
-    row = scene.rows[found.row]
-    outward = 1.0 if found.on == "outer_race" else -1.0
     race: Literal["outer", "inner"] = "outer" if found.on == "outer_race" else "inner"
-    radius = row.pitch_diameter + outward * row.ball_diameter * np.cos(row.contact_angle)
-    return name, race, widest(found), float(0.5 * radius)
+    return name, race, widest(found), race_radius(scene.rows[found.row], race)
 
 
 def _relative(

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..scene.defect import widest
 from .maps import SHADES
-from .outlines import circle, outlines
+from .outlines import circle, outlines, race_radius
 from .style import COLOURS
 
 if TYPE_CHECKING:
@@ -170,8 +170,7 @@ class Moving:
         return _mark((x, y), radius, turned, half, name)
 
     def _on_race(self, defect: Defect, name: str, turned: float) -> Any:
-        outward = 1.0 if defect.on == "outer_race" else -1.0
-        radius = 0.5e3 * (self._of_row.pitch_diameter + outward * self._of_row.ball_diameter)
+        radius = 1e3 * race_radius(self._of_row, defect.on)
         half = 0.5e3 * widest(defect) / radius
         return _mark((0.0, 0.0), radius, defect.angle + turned, half, name)
 

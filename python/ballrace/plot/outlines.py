@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 if TYPE_CHECKING:
     from ..scene import Row, Scene
 
-__all__ = ["Outlines", "circle", "groove", "on_groove", "outlines"]
+__all__ = ["Outlines", "circle", "groove", "on_groove", "outlines", "race_radius"]
 
 Array = NDArray[np.float64]
 
@@ -76,6 +76,12 @@ def outlines(scene: Scene) -> Outlines:
         bore=bore,
         assumed=not all((outer.diameter, inner.diameter, outer.width)),
     )
+
+
+def race_radius(row: Row, race: str) -> float:
+    """Return where contacts nominally run, as a radius [m], on a race that is named as one or as a surface."""
+    outward = 1.0 if race.startswith("outer") else -1.0
+    return 0.5 * (row.pitch_diameter + outward * row.ball_diameter * math.cos(row.contact_angle))
 
 
 def groove(row: Row, race: Literal["outer", "inner"], angles: Array) -> Array:

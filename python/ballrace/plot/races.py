@@ -11,6 +11,7 @@ from .._ellipse import semi_axes
 from ..scene.defect import widest
 from ..statics import Equilibrium, equilibrium
 from .maps import SHADES
+from .outlines import race_radius
 from .style import COLOURS, finished
 
 if TYPE_CHECKING:
@@ -100,7 +101,7 @@ def _contacts(
     load, pressure = getattr(eq, f"{race}_load")[own], getattr(eq, f"{race}_pressure")[own]
     across, along = semi_axes(row, race, load, pressure)
     angle, z = np.degrees(_wrapped(eq.angle[own])), _axial(eq, own, race, row)
-    half = np.degrees(_WIDER * along / _radius(row, race))
+    half = np.degrees(_WIDER * along / race_radius(row, race))
     cosine = np.abs(np.cos(np.nan_to_num(getattr(eq, f"{race}_angle")[own])))
     for k in np.flatnonzero(load > 0.0):
         shade = sample_colorscale(SHADES, [0.85 * load[k] / largest])[0]
@@ -137,7 +138,7 @@ def _defect(fig: go.Figure, row: Row, name: str, defect: Defect, place: int) -> 
 
     race = _RACES[place - 1]
     width = widest(defect)
-    half = math.degrees(0.5 * width / _radius(row, race))
+    half = math.degrees(0.5 * width / race_radius(row, race))
     middle = math.degrees(float(_wrapped(np.array(defect.angle))))
     assert not isinstance(defect.axial_offset, str)
     z = 1e3 * defect.axial_offset
@@ -159,11 +160,6 @@ def _axial(
     """Return where contacts lie on the race from the row's plane [m]."""
     centre: NDArray[np.float64] = getattr(eq, f"{race}_zone_centre")[own] - row.axial_position
     return centre
-
-
-def _radius(row: Row, race: Literal["outer", "inner"]) -> float:
-    outward = 1.0 if race == "outer" else -1.0
-    return 0.5 * (row.pitch_diameter + outward * row.ball_diameter * math.cos(row.contact_angle))
 
 
 def _wrapped(angle: NDArray[np.float64]) -> NDArray[np.float64]:

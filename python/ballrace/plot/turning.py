@@ -13,7 +13,7 @@ from ..frequencies.operating import operating_angle
 from ..scene.defect import extent
 from ..statics import equilibrium
 from .maps import SHADES
-from .outlines import outlines
+from .outlines import outlines, race_radius
 from .solids import ball, patch, repeated, ring
 from .style import COLOURS
 
@@ -189,8 +189,7 @@ class Turning:
         return _arc(radius, np.full(2, theta), z)
 
     def _damages(self, on: str, theta: float) -> dict[str, Array]:
-        outward = 1.0 if on == "outer_race" else -1.0
-        radius = 0.5 * (self._of_row.pitch_diameter + outward * self._of_row.ball_diameter)
+        radius = race_radius(self._of_row, on)
         found = {}
         for name, defect in self._scene.defects.items():
             if defect.on == on and defect.row == self._row:

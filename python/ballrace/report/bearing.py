@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -110,18 +109,11 @@ def _life(life: RatingLife) -> list[tuple[str, str]]:
     told = [("Basic dynamic load rating C", f"{words.large(life.rating)} N ({life.source})")]
     if life.equivalent_load is not None and life.basic is not None:
         told.append(("Equivalent load P, ISO 281", f"{words.large(life.equivalent_load)} N"))
-        told.append(("Basic rating life L₁₀, ISO 281", _turns(life, life.basic)))
-    told.append(("Basic reference rating life L₁₀ᵣ, ISO/TS 16281", _turns(life, life.reference)))
+        told.append(("Basic rating life L₁₀, ISO 281", words.lasting(life, life.basic)))
+    told.append(
+        ("Basic reference rating life L₁₀ᵣ, ISO/TS 16281", words.lasting(life, life.reference))
+    )
     if life.modified is not None and life.factor is not None:
         of = f"a_ISO {life.factor.value:.2g}, κ {life.factor.kappa:.2g}"
-        told.append((f"Modified life L₁₀ₘᵣ, {of}", _turns(life, life.modified)))
+        told.append((f"Modified life L₁₀ₘᵣ, {of}", words.lasting(life, life.modified)))
     return told
-
-
-def _turns(life: RatingLife, turns: float) -> str:
-    if math.isinf(turns):
-        return "unlimited: no load"
-    hours = life.hours(turns)
-    return f"{words.number(1e-6 * turns)} million turns" + (
-        f", {words.large(hours)} h" if hours else ""
-    )

@@ -16,9 +16,10 @@ from ..scene import (
 from ..scene.defect import widest
 
 if TYPE_CHECKING:
+    from ..ratings.life import RatingLife
     from ..scene import Defect, Lubricant, NormalLaw, Scene, TimeFunction
 
-__all__ = ["absent", "bearing", "degrees", "large", "model", "number", "operation"]
+__all__ = ["absent", "bearing", "degrees", "large", "lasting", "model", "number", "operation"]
 
 
 def number(value: float | None, digits: int = 4) -> str:
@@ -43,6 +44,14 @@ def large(value: float) -> str:
     ['1', '234', '567']
     """
     return "∞" if math.isinf(value) else f"{value:,.0f}".replace(",", "\u202f")
+
+
+def lasting(life: RatingLife, turns: float) -> str:
+    """Return how long a life of some turns lasts."""
+    if math.isinf(turns):
+        return "unlimited: no load"
+    hours = life.hours(turns)
+    return f"{number(1e-6 * turns)} million turns" + (f", {large(hours)} h" if hours else "")
 
 
 def degrees(angle: float) -> str:
