@@ -107,25 +107,6 @@ def encode(value: object, path: str) -> Any:
             )
 
 
-def whole_number(path: str, value: object) -> int:
-    """Return a whole number, also one that a table had to make a float."""
-    if isinstance(value, np.generic):
-        value = value.item()
-    if isinstance(value, bool) or not (
-        isinstance(value, int) or (isinstance(value, float) and value.is_integer())
-    ):
-        raise SceneError(path, repr(value), "a whole number")
-    return int(value)
-
-
-def counted(path: str, value: object, least: int) -> int:
-    """Return a whole number that is not below another."""
-    number = whole_number(path, value)
-    if number < least:
-        raise SceneError(path, repr(value), f"a whole number, at least {least}")
-    return number
-
-
 def _encode_fields(part: Part, path: str) -> dict[str, Any]:
     document = {}
     for name, key, left_out in _names(type(part)):

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _core
 from ._interrupt import answers_ctrl_c
-from ._numbers import real
+from ._numbers import finite, real
 from .errors import SceneError
 from .scene.scene import checked_scene
 
@@ -101,11 +101,9 @@ def feature_options(
     edges = [real(edge) for edge in band] if isinstance(band, Iterable) else []
     if band is not None and not (len(edges) == 2 and all(map(math.isfinite, edges))):
         raise SceneError("band", repr(band), "two frequencies [Hz]")
-    if not math.isfinite(real(skip)):
-        raise SceneError("skip", repr(skip), "a time [s]")
     return {
         "columns": None if columns is None else [str(name) for name in columns],
-        "skip": real(skip),
+        "skip": finite("skip", skip, "s"),
         "band": None if band is None else edges,
         "contact_loads": loads,
     }

@@ -12,7 +12,16 @@ from .errors import SceneError
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["LARGEST", "RATES", "checked_seed", "per_pitch", "real", "real_row", "sampling_rate"]
+__all__ = [
+    "LARGEST",
+    "RATES",
+    "counted",
+    "finite",
+    "positive",
+    "real",
+    "real_row",
+    "sampling_rate",
+]
 
 LARGEST = 1e60
 """Magnitude of a signal: sums of its fourth powers, which a kurtosis takes, are still numbers."""
@@ -38,18 +47,33 @@ def real(value: object) -> float:
         return math.inf if value > 0 else -math.inf
 
 
-def per_pitch(positions: object) -> int:
-    """Return how many positions of the cage there are to be per ball pitch."""
-    if isinstance(positions, bool) or not isinstance(positions, int) or positions < 1:
-        raise SceneError("positions", repr(positions), "a whole number, at least 1 per ball pitch")
-    return positions
+def finite(name: str, value: object, unit: str = "") -> float:
+    """Return a finite number."""
+    number = real(value)
+    if not math.isfinite(number):
+        raise SceneError(name, repr(value), f"a finite number{unit and f' [{unit}]'}")
+    return number
 
 
-def checked_seed(seed: object) -> int:
-    """Return a seed as numpy takes it."""
-    if isinstance(seed, bool) or not isinstance(seed, int | np.integer) or seed < 0:
-        raise SceneError("seed", repr(seed), "a whole number from 0")
-    return int(seed)
+def positive(
+    name: str, value: object, unit: str = "", *, zero: bool = False, below: float = math.inf
+) -> float:
+    """Return a number above 0, or from 0, and below a bound."""
+    number = real(value)
+    if not (0.0 < number < below or (zero and number == 0.0)):
+        least = "a number from 0" if zero else "a number above 0"
+        bound = "" if math.isinf(below) else f", below {below:g}"
+        raise SceneError(name, repr(value), f"{least}{bound}{unit and f' [{unit}]'}")
+    return number
+
+
+def counted(name: str, value: object, least: int, most: int | None = None) -> int:
+    """Return a whole number within bounds, also one that a table had to make a float."""
+    number = real(value)
+    if not (number.is_integer() and least <= number and (most is None or number <= most)):
+        bounds = f"at least {least}" if most is None else f"{least} to {most}"
+        raise SceneError(name, repr(value), f"a whole number, {bounds}")
+    return int(value)  # type: ignore[call-overload, no-any-return]
 
 
 def sampling_rate(fs: object) -> float:

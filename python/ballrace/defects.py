@@ -19,7 +19,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Literal
 
-from ._numbers import real
+from ._numbers import positive
 from .errors import SceneError
 from .scene import Defect, Floor, WidthProfile
 
@@ -284,5 +284,4 @@ def _ball(on: Surface, ball: int | None) -> int | None:
 
 def _positive(**sizes: float) -> None:
     for name, size in sizes.items():
-        if not 0.0 < real(size) < math.inf:
-            raise SceneError(name, repr(size), "above 0 [mm]")
+        positive(name, size, "mm")

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ._numbers import real
+from ._numbers import positive, real
 from .bearings import Bearing, bearing, catalogue
 from .bearings.build import metal
 from .channel import Channel
@@ -130,8 +130,8 @@ def noise_test(
     (20.0, [300.0, 1800.0, 10000.0])
     """
     made = name if isinstance(name, Bearing) else catalogue[name]
-    thrust = _thrust(made) if axial_load is None else _positive("axial_load", axial_load, "N")
-    share = _positive("speed_rpm", abs(real(speed_rpm)), "1/min") / _SPEED
+    thrust = _thrust(made) if axial_load is None else positive("axial_load", axial_load, "N")
+    share = positive("speed_rpm", abs(real(speed_rpm)), "1/min") / _SPEED
     ready = bearing(
         name, radial_load=0.0, axial_load=thrust, speed_rpm=speed_rpm, clearance=clearance,
         defects=defects, lubricant=lubricant, temperature_c=temperature_c, housing=None,
@@ -181,9 +181,3 @@ def _thrust(made: Bearing) -> float:
         )
         raise SceneError("axial_load", "None", allowed)
     return loads[column]
-
-
-def _positive(name: str, value: float, unit: str) -> float:
-    if not 0.0 < real(value) < math.inf:
-        raise SceneError(name, repr(value), f"a finite number above 0 {unit}")
-    return float(value)

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
-from ._document import Part, whole_number
-from ._numbers import real
+from ._document import Part
+from ._numbers import counted, real
 from .errors import SceneError
 from .scene import Method
 
@@ -138,10 +138,7 @@ def _said(name: str, value: Any) -> Any:
         case _ if value is None and name in _OPTIONAL:
             return None
         case "threads" | "max_steps":
-            number = whole_number(name, value)
-            if number < 0:
-                raise SceneError(name, shown(value), "a whole number, not below 0")
-            return number
+            return counted(name, value, 0)
     return _number(name, value)
 
 

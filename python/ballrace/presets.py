@@ -5,12 +5,11 @@ The reason for every number stands in the Rust module ``scene::presets``, or wit
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 from typing import Literal, get_args
 
 from . import _core
-from ._numbers import real
+from ._numbers import finite
 from .errors import SceneError
 from .scene import Lubricant, Scene
 from .scene.lubricant import chosen
@@ -54,7 +53,7 @@ def wheel_bearing(
         An argument is not usable, or a named oil has no temperature.
     """
     oil = chosen(lubricant, temperature_c)
-    return _lubricated(_core.preset_wheel_bearing(_finite("axial_load", axial_load, "N")), oil)
+    return _lubricated(_core.preset_wheel_bearing(finite("axial_load", axial_load, "N")), oil)
 
 
 def cornering_wheel(lateral: float = 0.3) -> Scene:
@@ -72,7 +71,7 @@ def cornering_wheel(lateral: float = 0.3) -> Scene:
     SceneError
         An argument is not usable.
     """
-    return Scene.from_json(_core.preset_cornering_wheel(_finite("lateral", lateral, "1")))
+    return Scene.from_json(_core.preset_cornering_wheel(finite("lateral", lateral, "1")))
 
 
 def angular_contact_pair(
@@ -106,9 +105,9 @@ def angular_contact_pair(
     return Scene.from_json(
         _core.preset_angular_contact_pair(
             arrangement == "face_to_face",
-            _finite("radial_load", radial_load, "N"),
-            _finite("axial_load", axial_load, "N"),
-            _finite("speed_rpm", speed_rpm, "rev/min"),
+            finite("radial_load", radial_load, "N"),
+            finite("axial_load", axial_load, "N"),
+            finite("speed_rpm", speed_rpm, "rev/min"),
         )
     )
 
@@ -140,8 +139,8 @@ def deep_groove_6205(
         An argument is not usable, or a named oil has no temperature.
     """
     oil = chosen(lubricant, temperature_c)
-    radial, axial = _finite("radial_load", radial_load, "N"), _finite("axial_load", axial_load, "N")
-    speed = _finite("speed_rpm", speed_rpm, "rev/min")
+    radial, axial = finite("radial_load", radial_load, "N"), finite("axial_load", axial_load, "N")
+    speed = finite("speed_rpm", speed_rpm, "rev/min")
     return _lubricated(_core.preset_deep_groove_6205(radial, axial, speed), oil)
 
 
@@ -168,7 +167,7 @@ def motor(belt_pull: float = 900.0, speed_rpm: float = 1480.0) -> Scene:
 
     return shaft(
         [("6309/C3", 0.0), ("6207/C3", 0.25)],
-        speed_rpm=_finite("speed_rpm", speed_rpm, "rev/min"),
+        speed_rpm=finite("speed_rpm", speed_rpm, "rev/min"),
         masses=[(25.0, 0.125, 0.15)],
         unbalances=[(160e-6, 0.125)],
         loads={"belt": belt(belt_pull, at=-0.08)},
@@ -178,12 +177,6 @@ def motor(belt_pull: float = 900.0, speed_rpm: float = 1480.0) -> Scene:
 def names() -> tuple[str, ...]:
     """Return the names of the presets."""
     return ("wheel_bearing", "cornering_wheel", "angular_contact_pair", "deep_groove_6205", "motor")
-
-
-def _finite(name: str, value: float, unit: str) -> float:
-    if not math.isfinite(real(value)):
-        raise SceneError(name, repr(value), f"a finite number [{unit}]")
-    return real(value)
 
 
 def _lubricated(document: str, lubricant: Lubricant | None) -> Scene:

@@ -13,7 +13,7 @@ from . import _core
 from ._arguments import knows
 from ._io.whole import whole
 from ._libraries import needed
-from ._numbers import per_pitch, real, real_row
+from ._numbers import counted, real, real_row
 from .errors import BallraceError, SceneError
 from .scene import SpeedDrive
 from .scene.scene import checked_scene
@@ -118,13 +118,7 @@ class StiffnessTable:
         SceneError
             There is no such load case, or the speeds do not rise.
         """
-        cases = len(self.stiffness)
-        if (
-            isinstance(load, bool)
-            or not isinstance(load, int | np.integer)
-            or not 0 <= load < cases
-        ):
-            raise SceneError("load", repr(load), f"a load case, 0 to {cases - 1}")
+        load = counted("load", load, 0, len(self.stiffness) - 1)
         if np.any(np.diff(self.speeds) <= 0.0):
             raise SceneError("speeds_rpm", f"{self.speeds.size} speeds", "rising, for ROSS")
         found: dict[str, Any] = {}
@@ -244,7 +238,7 @@ def stiffness_table(
     True
     """
     scene = checked_scene(bearing)
-    per_pitch(positions)
+    positions = counted("positions", positions, 1)
     cases = _cases(scene, loads)
     speeds = None if speeds_rpm is None else _speeds(speeds_rpm)
     found: list[Mapping[str, Any]] = []

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import json
-import math
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 from . import _core
 from ._document import encode
-from ._numbers import real, real_row
+from ._numbers import finite, positive, real, real_row
 from ._snapshot import Snapshot, joined
 from .errors import SceneError
 from .ring_force import passed, told
@@ -210,10 +209,7 @@ class Simulation:
         self, dt: float, *, progress: bool | Callable[[float], object] | None = None
     ) -> Piece:
         """Go on by a time `dt` [s]; see :meth:`advance_to`."""
-        step = _number("dt", dt)
-        if step < 0.0:
-            raise SceneError("dt", repr(dt), "0 or more [s]")
-        return self.advance_to(self.time + step, progress=progress)
+        return self.advance_to(self.time + positive("dt", dt, "s", zero=True), progress=progress)
 
     def advance_to(
         self, t: float, *, progress: bool | Callable[[float], object] | None = None
@@ -238,7 +234,7 @@ class Simulation:
         BudgetError
             It took more than `time_limit` or `max_steps` allows.
         """
-        target = _number("t", t)
+        target = finite("t", t, "s")
         piece = shown(progress, "simulating", lambda share: self._core.advance_to(target, share))
         if self._keep and piece["t"].size:
             self._pieces.append(piece)
@@ -301,10 +297,9 @@ class Simulation:
         """
         if not hasattr(loads, "items"):
             raise SceneError("loads", repr(loads), "sizes by their paths")
-        for path, size in loads.items():
-            if not math.isfinite(real(size)):
-                raise SceneError(checked_path(path), repr(size), "a finite number [N], [N m]")
-        self._core.set_loads([(checked_path(path), real(size)) for path, size in loads.items()])
+        self._core.set_loads(
+            [(path, finite(checked_path(path), size, "N, N m")) for path, size in loads.items()]
+        )
 
     def set_motions(self, motions: Mapping[str, Sequence[float]], *, until: float) -> None:
         """Move rings with given motions from where they are to places with speeds, by paths of motions.
@@ -372,10 +367,3 @@ class Simulation:
         raw["t"] = record["t"]
         raw["columns"] = [(name, unit, record[name]) for name, unit, _ in raw["columns"]]
         return Signals._from_core(raw)
-
-
-def _number(name: str, value: object) -> float:
-    number = real(value)
-    if not math.isfinite(number):
-        raise SceneError(name, repr(value), "a finite number [s]")
-    return number

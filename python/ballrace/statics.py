@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from . import _core
 from ._html import paragraph, points, table
-from ._numbers import per_pitch
-from .errors import SceneWarning
+from ._numbers import counted
+from .errors import SceneError, SceneWarning
 from .ring_force import passed
 from .scene.scene import checked_scene
 
@@ -398,10 +398,8 @@ class LoadDistribution:
         Both have shape (n_positions * balls of the row,).
         """
         if race not in ("outer", "inner"):
-            raise ValueError(f'race is {race!r}; it has to be "outer" or "inner"')
-        chosen = self.row == row
-        if not chosen.any():
-            raise ValueError(f"row is {row}; it has to be 0 to {int(self.row.max())}")
+            raise SceneError("race", repr(race), '"outer" or "inner"')
+        chosen = self.row == counted("row", row, 0, int(self.row.max()))
         angle = self.angle[:, chosen].ravel()
         order = np.argsort(angle, kind="stable")
         load: NDArray[np.float64] = getattr(self, f"{race}_load")[:, chosen].ravel()
@@ -448,5 +446,5 @@ def load_distribution(scene: Scene, *, positions: int = 16) -> LoadDistribution:
     >>> psi, load = loads.around(race="outer")
     """
     document = checked_scene(scene)._document()
-    found: Mapping[str, Any] = _core.load_distribution(document, per_pitch(positions))
+    found: Mapping[str, Any] = _core.load_distribution(document, counted("positions", positions, 1))
     return LoadDistribution(**{**found, "warnings": warned(found["warnings"], stacklevel=3)})

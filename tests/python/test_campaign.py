@@ -194,7 +194,7 @@ def test_on_error_raise(tmp_path: Path) -> None:
         ([{}], {"start": "running"}, "start = 'running'"),
         ([{}], {"columns": ["outer.by"]}, "columns = outer.by: columns of the scene's probes"),
         ([{}], {"keep": "all"}, "keep = 'all': one of"),
-        ([{}], {"threads": 0}, "threads = 0: at least 1"),
+        ([{}], {"threads": 0}, "threads = 0: a whole number, at least 1"),
         ([{}], {"shard": (2, 2)}, "shard = 2/2"),
         ([{}], {"scene": "wheel"}, "scene = 'wheel': a Scene"),
     ],

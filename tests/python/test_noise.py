@@ -111,7 +111,7 @@ def test_the_thrust_is_the_standards() -> None:
 
 
 def test_what_cannot_be_tested_is_refused() -> None:
-    with pytest.raises(br.SceneError, match=r"axial_load = 0\.0: a finite number above 0 N"):
+    with pytest.raises(br.SceneError, match=r"axial_load = 0\.0: a number above 0 \[N\]"):
         br.noise_test("6205", axial_load=0.0)
     with pytest.raises(br.SceneError, match=r"speed_rpm = 0\.0"):
         br.noise_test("6205", speed_rpm=0.0)

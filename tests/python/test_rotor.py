@@ -202,7 +202,7 @@ def test_ross_is_given_what_it_takes(table: br.StiffnessTable) -> None:
     )
     np.testing.assert_array_equal(given["kyx"], table.stiffness[1, :, 1, 0])
     np.testing.assert_array_equal(given["frequency"], table.speeds)
-    with pytest.raises(br.SceneError, match="load = 2: a load case, 0 to 1"):
+    with pytest.raises(br.SceneError, match="load = 2: a whole number, 0 to 1"):
         table.ross_arguments(load=2)
     falling = replace(table, speeds=table.speeds[::-1])
     with pytest.raises(br.SceneError, match="rising"):

@@ -85,9 +85,9 @@ def test_around_orders_the_balls(scene: br.Scene) -> None:
     assert angle.shape == load.shape == (36,)
     assert np.all(np.diff(angle) > 0.0)
     assert abs(angle[np.argmax(load)] + np.pi / 2.0) < np.pi / 36.0
-    with pytest.raises(ValueError, match="row is 3"):
+    with pytest.raises(ValueError, match="row = 3"):
         found.around(3)
-    with pytest.raises(ValueError, match="race is 'middle'"):
+    with pytest.raises(ValueError, match="race = 'middle'"):
         found.around(0, "middle")  # type: ignore[arg-type]
 
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Literal
 
 from .._arguments import knows
-from .._numbers import real
+from .._numbers import finite, positive
 from ..errors import SceneError
 from ..scene import Defect, Load, Lubricant, Ring, Row, Scene, Spring, Support, Texture
 from .clearance import radial_clearance
@@ -129,7 +129,9 @@ def bearing(
     made = name if isinstance(name, Bearing) else catalogue[name]
     smooth = rows_of(made, said_clearance(name, made, clearance))
     rows = tuple(replace(row, texture=texture) for row in smooth)
-    radial = 0.1 * made.static_rating if radial_load is None else _load("radial_load", radial_load)
+    if radial_load is None:
+        radial_load = 0.1 * made.static_rating
+    radial = positive("radial_load", radial_load, "N", zero=True)
     axial = _thrust(made, radial, axial_load)
     size = metal(made)
     return filled(
@@ -221,7 +223,7 @@ def _thrust(made: Bearing, radial: float, axial: float | None) -> float:
     least = radial * math.tan(made.contact_angle) if single else 0.0
     if axial is None:
         return _HALF_THE_BALLS * least
-    axial = _load("axial_load", axial)
+    axial = finite("axial_load", axial, "N")
     if single and not (axial > least or axial == radial == 0.0):
         allowed = (
             f"above {least:.4g} N towards +z, radial_load * tan(contact angle): with less the rings of a "
@@ -229,9 +231,3 @@ def _thrust(made: Bearing, radial: float, axial: float | None) -> float:
         )
         raise SceneError("axial_load", f"{axial:g}", allowed)
     return axial
-
-
-def _load(name: str, value: float) -> float:
-    if not math.isfinite(real(value)) or (name == "radial_load" and value < 0.0):
-        raise SceneError(name, repr(value), "a load [N], the radial one along -y and from 0")
-    return float(value)

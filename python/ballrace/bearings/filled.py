@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, TypeVar
 
-from .._numbers import real
+from .._numbers import finite
 from ..errors import SceneError
 from ..scene import (
     Cage,
@@ -65,10 +65,9 @@ def filled(
     """
     if speed_rpm is None:
         speed_rpm = usual_rpm if outer_rpm is None else 0.0
-    if not math.isfinite(real(speed_rpm)):
-        raise SceneError("speed_rpm", repr(speed_rpm), "a speed [rev/min]")
-    if outer_rpm is not None and not math.isfinite(real(outer_rpm)):
-        raise SceneError("outer_rpm", repr(outer_rpm), "a speed [rev/min], or None")
+    speed_rpm = finite("speed_rpm", speed_rpm, "rev/min")
+    if outer_rpm is not None:
+        outer_rpm = finite("outer_rpm", outer_rpm, "rev/min")
     one = {"defect": defects} if isinstance(defects, Defect) else defects
     return Scene(
         name=name,

@@ -10,7 +10,7 @@ import math
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from .._numbers import real
+from .._numbers import positive, real
 from ..errors import EquilibriumError, SceneError
 from .build import said_clearance
 from .clearance import radial_clearance
@@ -270,8 +270,7 @@ def steady_temperatures(
     """
     conductances = {"inner_conductance": inner_conductance, "outer_conductance": outer_conductance}
     for name, value in conductances.items():
-        if not 0.0 < real(value) < math.inf:
-            raise SceneError(name, repr(value), "above 0 [W/K]")
+        positive(name, value, "W/K")
     if not 0.0 <= real(inner_share) <= 1.0:
         raise SceneError("inner_share", repr(inner_share), "0 to 1")
     if not -273.15 < real(ambient) < 1000.0:

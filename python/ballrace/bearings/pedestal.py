@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from .._numbers import real
+from .._numbers import positive
 from ..errors import SceneError
 
 __all__ = ["Pedestal"]
@@ -54,12 +54,7 @@ class Pedestal:
     def __post_init__(self) -> None:
         for name, unit in (("mass", "kg"), ("stiffness", "N/m"), ("damping", "N s/m")):
             value = getattr(self, name)
-            least = "from 0" if name == "damping" else "above 0"
-            number = real(value)
-            if not (
-                math.isfinite(number) and (number > 0.0 or (number == 0.0 and name == "damping"))
-            ):
-                raise SceneError(f"housing.{name}", repr(value), f"a number [{unit}], {least}")
+            positive(f"housing.{name}", value, unit, zero=name == "damping")
 
 
 def pillow_block(outside_diameter: float) -> Pedestal:

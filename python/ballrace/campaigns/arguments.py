@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from .. import _core
-from .._document import whole_number
+from .._numbers import counted
 from .._text import printable
 from ..errors import CampaignError, CampaignWarning, SceneError, SceneWarning
 from ..options import BUDGET, DECIDING
@@ -154,26 +154,18 @@ def threads_of(threads: int | None, executor: object) -> int:
     """Return the threads of a process; 0: all."""
     if threads is None:
         return 0 if executor is None else 1
-    return at_least_one("threads", threads)
+    return counted("threads", threads, 1)
 
 
 def shard_of(shard: tuple[int, int]) -> tuple[int, int]:
     """Return which part of how many."""
     try:
-        part, parts = (whole_number("shard", number) for number in shard)
+        part, parts = (counted("shard", number, 0) for number in shard)
     except (TypeError, ValueError):
         raise SceneError("shard", repr(shard), "a pair (i, n) of whole numbers") from None
     if not 0 <= part < parts:
         raise SceneError("shard", f"{part}/{parts}", "i/n with i from 0 to n - 1")
     return part, parts
-
-
-def at_least_one(name: str, value: int) -> int:
-    """Return a number of things of which there must be some."""
-    number = whole_number(name, value)
-    if number < 1:
-        raise SceneError(name, str(value), "at least 1")
-    return number
 
 
 def warn_of_labels(cases: Cases, scenes: Mapping[str, str]) -> None:

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .._document import counted
-from .._numbers import real
+from .._numbers import counted, real
 from ..errors import SceneError
 from .designs import counted_cases
 

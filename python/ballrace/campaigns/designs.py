@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .._document import Part, counted
-from .._numbers import real
+from .._document import Part
+from .._numbers import counted, real
 from ..errors import SceneError
 
 if TYPE_CHECKING:

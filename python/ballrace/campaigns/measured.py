@@ -11,11 +11,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .._features import features
-from .._numbers import real
+from .._numbers import counted, positive, real
 from ..errors import AccuracyWarning, SceneError
 from ..measuring.chain import CLIPPED, Measurement
 from ..measuring.chain import measured as by_chain
-from ..measuring.checks import positive
 from ..measuring.named import Chains, named_chains
 from ..scene import Scene
 from ..signals import Signals
@@ -117,11 +116,9 @@ def windows_table(
     """
     from .._polars import pl
 
-    hop = length if hop is None else hop
-    for name, value in (("length", length), ("hop", hop)):
-        if not (real(value) >= 1 and real(value).is_integer()):
-            raise SceneError(name, repr(value), "a whole number of samples, from 1")
-    positive("skip", skip, zero=True)
+    length = counted("length", length, 1)
+    hop = length if hop is None else counted("hop", hop, 1)
+    positive("skip", skip, "s", zero=True)
     frames = []
     for line in lines:
         x = line.measurement.x

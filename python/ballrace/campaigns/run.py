@@ -8,15 +8,14 @@ import os
 import warnings
 from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack, overload
 
-from .._document import counted
 from .._features import feature_options
 from .._io.files import as_path
+from .._numbers import counted
 from .._text import printable
 from ..errors import CampaignError, CampaignWarning, SceneError
 from ..options import BUDGET, DECIDING, Run, document
 from .arguments import (
     Plan,
-    at_least_one,
     check_choices,
     scenes_of,
     shard_of,
@@ -260,7 +259,7 @@ def campaign(
     scenes = scenes_of(scene, features)
     schema_version = json.loads(next(iter(scenes.values())))["schema"]
     engine, workers = (None, None) if executor is None else executor_of(executor)
-    most = None if in_flight is None else at_least_one("in_flight", in_flight)
+    most = None if in_flight is None else counted("in_flight", in_flight, 1)
     plan = Plan(
         cases=Cases(cases, scenes, run, budget=budget, features=json.dumps(features)),
         identity={"schema": schema_version, "scenes": scenes, "run": run, "features": features},

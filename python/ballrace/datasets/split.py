@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .._numbers import checked_seed, real
+from .._numbers import counted, real
 from ..errors import SceneError
 from .classes import classes_of
 
@@ -71,7 +71,7 @@ def bearing_split(
     """
     if not 0.0 < real(test) < 1.0:
         raise SceneError("test", repr(test), "a share of the rows, above 0 and below 1")
-    rng = np.random.default_rng(checked_seed(seed))
+    rng = np.random.default_rng(counted("seed", seed, 0))
     bearing, names = _bearings(manifest, groups)
     kinds = classes_of(manifest, balance, "balance").fill_null("not known").rank("dense") - 1
     count = _counts(bearing, kinds.to_numpy().astype(np.intp), names)

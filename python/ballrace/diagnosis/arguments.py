@@ -7,8 +7,6 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from .._numbers import real
 from .._units import ACCELERATIONS, VELOCITIES
 from ..errors import SceneError
@@ -23,7 +21,7 @@ if TYPE_CHECKING:
     from .kinematics import AnyBearing, Kinematics
 
 __all__ = [
-    "check_chances",
+    "check_false_alarm",
     "checked_channel",
     "known_bearing",
     "known_within",
@@ -129,8 +127,8 @@ def other_rates(exclude: Iterable[float], mains: float | None) -> tuple[list[flo
     return orders, [] if mains is None else [real(mains)]
 
 
-def check_chances(false_alarm: float, seed: int) -> None:
-    """Refuse a false-alarm rate or a seed that is none.
+def check_false_alarm(false_alarm: float) -> None:
+    """Refuse a false-alarm rate that is none.
 
     Raises
     ------
@@ -139,5 +137,3 @@ def check_chances(false_alarm: float, seed: int) -> None:
     """
     if not 1e-6 <= real(false_alarm) <= 0.2:
         raise SceneError("false_alarm", repr(false_alarm), "a share of records, 1e-6 to 0.2")
-    if isinstance(seed, bool) or not isinstance(seed, int | np.integer) or seed < 0:
-        raise SceneError("seed", repr(seed), "a whole number from 0")

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from typing import TypeAlias
 
-from .._numbers import real
+from .._numbers import counted, real
 from ..bearings import Bearing, catalogue
 from ..errors import EquilibriumError, SceneError
 from ..frequencies.kinematic import Orders, of_row
@@ -106,9 +106,7 @@ def _at_rest(bearing: AnyBearing) -> Kinematics:
 
 
 def _of_scene(scene: Scene, row: int, speeds: tuple[float, float] | None) -> Kinematics:
-    if isinstance(row, bool) or not isinstance(row, int) or not 0 <= row < len(scene.rows):
-        raise SceneError("row", repr(row), f"a row, 0 to {len(scene.rows) - 1}")
-    of = scene.rows[row]
+    of = scene.rows[counted("row", row, 0, len(scene.rows) - 1)]
     try:
         found = rates_at_a_turn(scene, row, speeds=speeds).orders
     except EquilibriumError:

@@ -7,10 +7,11 @@ from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
 
+from .._numbers import counted
 from ..channel import channel_of
 from ..scene import Scene
 from .arguments import (
-    check_chances,
+    check_false_alarm,
     checked_channel,
     known_bearing,
     known_within,
@@ -137,7 +138,8 @@ def diagnose(
     ('damaged', ('inner_race',))
     """
     channel = checked_channel(channel_of(record, fs, column, name="record"), unit)
-    check_chances(false_alarm, seed)
+    check_false_alarm(false_alarm)
+    seed = counted("seed", seed, 0)
     scene = channel.scene if bearing is None else bearing
     if row is None and isinstance(scene, Scene) and len(scene.rows) > 1:
         again = partial(

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from .. import _core, frequencies
-from .._numbers import real
+from .._numbers import counted, finite
 from ..bearings import Bearing, catalogue
 from ..errors import SceneError
 from ..scene import MotionProbe, Scene, SpeedDrive
@@ -146,8 +146,7 @@ def fault_frequencies(
     scene = of.scene if isinstance(of, Signals) else of
     if not isinstance(scene, Scene):
         raise SceneError("of", f"a {type(of).__name__}", "a designation, Bearing, Scene or Signals")
-    if not 0 <= row < len(scene.rows):
-        raise SceneError("row", str(row), f"a row, 0 to {len(scene.rows) - 1}")
+    row = counted("row", row, 0, len(scene.rows) - 1)
     did = _measured(of, row) if isinstance(of, Signals) else None
     if did is not None and speed_rpm is None and outer_rpm is None:
         speeds = did["outer"], did["inner"]
@@ -326,13 +325,13 @@ def ring_rates(inner_rpm: float, outer_rpm: float) -> _Speeds:
     SceneError
         One is not usable, or balls do not roll.
     """
-    if not math.isfinite(real(outer_rpm)):
-        raise SceneError("outer_rpm", repr(outer_rpm), "a speed of the outer ring [rev/min]")
-    if not math.isfinite(real(inner_rpm)) or inner_rpm == outer_rpm:
-        told = "not 0" if outer_rpm == 0.0 else f"not that of the outer ring, {outer_rpm:g}"
+    outer = finite("outer_rpm", outer_rpm, "rev/min")
+    inner = finite("speed_rpm", inner_rpm, "rev/min")
+    if inner == outer:
+        told = "not 0" if outer == 0.0 else f"not that of the outer ring, {outer:g}"
         allowed = f"a speed of the inner ring [rev/min], {told}"
         raise SceneError("speed_rpm", repr(inner_rpm), allowed)
-    return outer_rpm / 60.0, inner_rpm / 60.0
+    return outer / 60.0, inner / 60.0
 
 
 def scene_rates(scene: Scene, speed_rpm: float | None, outer_rpm: float | None) -> _Speeds:

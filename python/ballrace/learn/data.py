@@ -13,8 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .._document import counted
-from .._numbers import real
+from .._numbers import counted, real
 from .._polars import pl
 from ..campaigns import Campaign, campaign
 from ..campaigns.progress import duration as spoken

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from .._numbers import real
+from .._numbers import finite, positive, real
 from ..errors import SceneError
 from ..scene import Load
 
@@ -26,12 +26,12 @@ def force(x: float = 0.0, y: float = 0.0, z: float = 0.0, *, at: float) -> Load:
     SceneError
         A number is not usable.
     """
-    parts = tuple(_number(name, each, "N") for name, each in (("x", x), ("y", y), ("z", z)))
+    parts = tuple(finite(name, each, "N") for name, each in (("x", x), ("y", y), ("z", z)))
     size = math.hypot(*parts)
     if not size > 0.0:
         raise SceneError("force", repr(parts), "a force that is not 0 [N]")
     direction = (parts[0] / size, parts[1] / size, parts[2] / size)
-    return Load(ring="inner", direction=direction, force=size, at=(0.0, 0.0, _place(at)))
+    return Load(ring="inner", direction=direction, force=size, at=(0.0, 0.0, finite("at", at, "m")))
 
 
 def belt(pull: float, *, at: float, angle: float = -0.5 * math.pi) -> Load:
@@ -56,7 +56,7 @@ def belt(pull: float, *, at: float, angle: float = -0.5 * math.pi) -> Load:
     >>> round(belt(800.0, at=-0.08).force)
     800
     """
-    size, towards = _above("pull", pull, "N"), _number("angle", angle, "rad")
+    size, towards = positive("pull", pull, "N"), finite("angle", angle, "rad")
     return force(size * math.cos(towards), size * math.sin(towards), at=at)
 
 
@@ -99,10 +99,10 @@ def gear(
     >>> round(mesh.force)  # 2 · 50/0.1 over cos 20°
     1064
     """
-    turning = _number("torque", torque, "N m")
+    turning = finite("torque", torque, "N m")
     if turning == 0.0:
         raise SceneError("torque", repr(torque), "a torque that is not 0 [N m]")
-    diameter, met = _above("pitch_diameter", pitch_diameter, "m"), _number("angle", angle, "rad")
+    diameter, met = positive("pitch_diameter", pitch_diameter, "m"), finite("angle", angle, "rad")
     pressed = _within("pressure_angle", pressure_angle, 0.0, math.radians(45.0))
     helix = _within("helix_angle", helix_angle, -math.radians(60.0), math.radians(60.0))
     tangential = 2.0 * turning / diameter
@@ -115,27 +115,11 @@ def gear(
         ring="inner",
         direction=whole.direction,
         force=whole.force,
-        at=(radius * math.cos(met), radius * math.sin(met), _place(at)),
+        at=(radius * math.cos(met), radius * math.sin(met), finite("at", at, "m")),
     )
-
-
-def _number(name: str, value: float, unit: str) -> float:
-    if not math.isfinite(real(value)):
-        raise SceneError(name, repr(value), f"a number [{unit}]")
-    return float(value)
-
-
-def _above(name: str, value: float, unit: str) -> float:
-    if not 0.0 < real(value) < math.inf:
-        raise SceneError(name, repr(value), f"a number above 0 [{unit}]")
-    return float(value)
 
 
 def _within(name: str, value: float, least: float, most: float) -> float:
     if not least <= real(value) <= most:
         raise SceneError(name, repr(value), f"an angle from {least:.3g} to {most:.3g} rad")
     return float(value)
-
-
-def _place(at: float) -> float:
-    return _number("at", at, "m")

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Literal, get_args
 
 from .._arguments import knows
-from .._numbers import real
+from .._numbers import finite, positive
 from ..bearings import Bearing, Pedestal, bearing, catalogue
 from ..errors import SceneError
 from ..scene import Load, Scene
@@ -75,9 +75,12 @@ def pair(
     if arrangement not in get_args(Arrangement):
         allowed = " or ".join(map(repr, get_args(Arrangement)))
         raise SceneError("arrangement", repr(arrangement), allowed)
-    if not 0.0 <= real(preload) < math.inf or (arrangement == "tandem" and preload):
-        raise SceneError("preload", repr(preload), "a force from 0 [N], and 0 in tandem")
-    radial = 0.1 * made.static_rating if radial_load is None else _load("radial_load", radial_load)
+    preload = positive("preload", preload, "N", zero=True)
+    if arrangement == "tandem" and preload:
+        raise SceneError("preload", repr(preload), "0 in tandem [N]")
+    if radial_load is None:
+        radial_load = 0.1 * made.static_rating
+    radial = positive("radial_load", radial_load, "N", zero=True)
     axial = _thrust(made, arrangement, radial, axial_load)
     aside = 0.5 * made.width
     first, second = _SIDES[arrangement]
@@ -90,13 +93,13 @@ def pair(
                 ring="inner",
                 direction=(0.0, -1.0, 0.0),
                 force=radial,
-                at=(0.0, 0.0, _load("at", at)),
+                at=(0.0, 0.0, finite("at", at, "m")),
             ),
             "axial": Load(ring="inner", direction=(0.0, 0.0, 1.0), force=axial),
         },
         housing=housing,
     )
-    pressed = _approach(made, float(preload))
+    pressed = _approach(made, preload)
     rows = tuple(replace(row, axial_preload=pressed) for row in scene.rows)
     title = f"{made.designation} {arrangement.replace('_', ' ')}"
     return replace(scene, rows=rows, name=title).validate()
@@ -107,7 +110,7 @@ def _thrust(made: Bearing, arrangement: Arrangement, radial: float, axial: float
     least = radial * math.tan(made.contact_angle) if arrangement == "tandem" else 0.0
     if axial is None:
         return 1.22 * least
-    axial = _load("axial_load", axial)
+    axial = finite("axial_load", axial, "N")
     if arrangement == "tandem" and not axial > least:
         raise SceneError("axial_load", f"{axial:g}", f"above {least:.4g} N, in tandem")
     return axial
@@ -120,10 +123,3 @@ def _approach(made: Bearing, force: float) -> float:
     alone = bearing(made, radial_load=0.0, axial_load=force, speed_rpm=100.0, housing=None)
     found = equilibrium(replace(alone, gravity=(0.0, 0.0, 0.0)))
     return float(found.inner[2] - found.outer[2])
-
-
-def _load(name: str, value: float) -> float:
-    unit = "m" if name == "at" else "N"
-    if not math.isfinite(real(value)) or (name == "radial_load" and value < 0.0):
-        raise SceneError(name, repr(value), f"a number [{unit}], a radial load from 0")
-    return float(value)

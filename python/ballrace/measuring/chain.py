@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, TypedDict, Unpack
 import numpy as np
 from numpy.typing import NDArray
 
-from .._numbers import checked_seed
+from .._numbers import counted
 from ..channel import Channel
 from ..errors import AccuracyWarning, SceneError
 from ..recordings.recording import Recording
@@ -334,7 +334,7 @@ def measured(
     else:
         source = of_array(of, fs, shaft, chain.direction)
     # A stream of its own for each stage.
-    streams = [np.random.default_rng([stage, checked_seed(seed)]) for stage in range(3)]
+    streams = [np.random.default_rng([stage, counted("seed", seed, 0)]) for stage in range(3)]
     x, rate = _sensed(source, chain, streams[0]), source.fs
     clipped, reach = 0.0, None
     if chain.logger is not None:

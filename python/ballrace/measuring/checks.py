@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .._numbers import real, real_row
+from .._numbers import real_row
 from ..errors import SceneError
 
 if TYPE_CHECKING:
@@ -15,14 +14,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["finite_row", "positive", "rising"]
-
-
-def positive(name: str, value: float, *, zero: bool = False, below: float = math.inf) -> None:
-    """Refuse what is not a number above 0, or from 0, and below a bound."""
-    if not (0.0 < real(value) < below or (zero and real(value) == 0.0)):
-        bound = "" if math.isinf(below) else f", below {below:g}"
-        raise SceneError(name, repr(value), f"{'from' if zero else 'above'} 0{bound}")
+__all__ = ["finite_row", "rising"]
 
 
 def finite_row(name: str, values: ArrayLike) -> NDArray[np.float64]:

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .._numbers import counted, finite, positive
 from ..errors import SceneError
-from .checks import finite_row, positive, rising
+from .checks import finite_row, rising
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -38,10 +39,9 @@ class Mode:
     residue: float = 1.0
 
     def __post_init__(self) -> None:
-        positive("mode.frequency", self.frequency)
+        positive("mode.frequency", self.frequency, "Hz")
         positive("mode.damping", self.damping, below=1.0)
-        if not math.isfinite(self.residue):
-            raise SceneError("mode.residue", repr(self.residue), "a number")
+        finite("mode.residue", self.residue)
 
     def transfer(self, f: NDArray[np.float64]) -> NDArray[np.complex128]:
         """Return the frequency response, ``r / (1 - s² + 2 i ζ s)`` with s = f/f_k."""
@@ -78,8 +78,7 @@ class Housing:
         object.__setattr__(self, "modes", tuple(self.modes))
         if not all(isinstance(mode, Mode) for mode in self.modes):
             raise SceneError("housing.modes", repr(self.modes), "modes")
-        if not math.isfinite(self.direct):
-            raise SceneError("housing.direct", repr(self.direct), "a number")
+        finite("housing.direct", self.direct)
 
     def transfer(self, f: NDArray[np.float64], fs: float) -> NDArray[np.complex128]:
         """Return the frequency response."""
@@ -148,7 +147,7 @@ class ImpulseResponse:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "taps", finite_row("housing.taps", self.taps))
-        positive("housing.fs", self.fs)
+        positive("housing.fs", self.fs, "Hz")
 
     def transfer(self, f: NDArray[np.float64], fs: float) -> NDArray[np.complex128]:
         """Return the frequency response.
@@ -203,8 +202,7 @@ def random_housing(
     >>> random_housing(7) == random_housing(7), len(random_housing(7).modes)
     (True, 5)
     """
-    if isinstance(modes, bool) or modes < 1:
-        raise SceneError("modes", str(modes), "at least 1")
+    modes = counted("modes", modes, 1)
     for name, pair in (("band", band), ("damping", damping)):
         if not 0.0 < pair[0] <= pair[1] < math.inf:
             raise SceneError(name, str(pair), "two rising numbers above 0")

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .._numbers import counted, positive
 from ..errors import SceneError
-from .checks import positive
 from .noise import noise
 
 if TYPE_CHECKING:
@@ -57,13 +57,13 @@ class Logger:
     def __post_init__(self) -> None:
         positive("logger.noise_density", self.noise_density, zero=True)
         if self.fs is not None:
-            positive("logger.fs", self.fs)
+            positive("logger.fs", self.fs, "Hz")
         if self.bandwidth is not None:
-            positive("logger.bandwidth", self.bandwidth)
+            positive("logger.bandwidth", self.bandwidth, "Hz")
         if self.range is not None:
-            positive("logger.range", self.range)
-        if self.bits is not None and not 2 <= self.bits <= 32:
-            raise SceneError("logger.bits", str(self.bits), "2 to 32")
+            positive("logger.range", self.range, "m/s²")
+        if self.bits is not None:
+            counted("logger.bits", self.bits, 2, 32)
 
     @property
     def step(self) -> float | None:

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .._numbers import positive
 from ..errors import SceneError
-from .checks import positive
 from .noise import Density, checked_density, noise
 
 if TYPE_CHECKING:
@@ -74,7 +74,7 @@ class Machine:
     wander: float = 0.0
 
     def __post_init__(self) -> None:
-        positive("machine.mains_frequency", self.mains_frequency)
+        positive("machine.mains_frequency", self.mains_frequency, "Hz")
         positive("machine.wander", self.wander, zero=True)
         density = checked_density("machine.noise_density", self.noise_density)
         object.__setattr__(self, "noise_density", density)

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .._numbers import positive
 from ..errors import SceneError
-from .checks import finite_row, positive
+from .checks import finite_row
 from .housing import MeasuredResponse
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .checks import positive
+from .._numbers import positive
 from .housing import Mode
 
 if TYPE_CHECKING:
@@ -38,9 +38,9 @@ class Sensor:
     def __post_init__(self) -> None:
         positive("sensor.damping", self.damping, below=1.0)
         if self.resonance is not None:
-            positive("sensor.resonance", self.resonance)
+            positive("sensor.resonance", self.resonance, "Hz")
         if self.lower_limit is not None:
-            positive("sensor.lower_limit", self.lower_limit)
+            positive("sensor.lower_limit", self.lower_limit, "Hz")
 
     def transfer(self, f: NDArray[np.float64], fs: float) -> NDArray[np.complex128]:
         """Return the frequency response."""

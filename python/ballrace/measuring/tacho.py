@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..errors import SceneError
-from .checks import positive
+from .._numbers import counted, positive
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -32,9 +31,8 @@ class Tacho:
     jitter: float = 0.0
 
     def __post_init__(self) -> None:
-        if isinstance(self.pulses, bool) or self.pulses < 1:
-            raise SceneError("tacho.pulses", str(self.pulses), "at least 1")
-        positive("tacho.jitter", self.jitter, zero=True)
+        counted("tacho.pulses", self.pulses, 1)
+        positive("tacho.jitter", self.jitter, "s", zero=True)
 
     def times(
         self, t: NDArray[np.float64], angle: NDArray[np.float64], rng: np.random.Generator

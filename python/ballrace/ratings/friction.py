@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from .._numbers import real
 from ..errors import SceneError
 
 __all__ = ["FrictionTorque", "friction_torque_palmgren", "friction_torque_skf"]
@@ -219,10 +220,8 @@ def _check(
     name: str, value: float, unit: str, *, above: float = 0.0, least: float | None = None
 ) -> float:
     """Return a finite number above a bound, or from ``least`` on."""
-    is_number = isinstance(value, int | float) and not isinstance(value, bool)
-    if not (
-        is_number and math.isfinite(value) and (value > above if least is None else value >= least)
-    ):
+    number = real(value)
+    if not (number > above if least is None else number >= least) or math.isinf(number):
         bound = f"above {above:g}" if least is None else f"from {least:g} on"
         raise SceneError(name, repr(value), f"a number {bound} [{unit}]")
-    return float(value)
+    return number

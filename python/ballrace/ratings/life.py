@@ -15,6 +15,7 @@ import warnings
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from .._numbers import positive
 from ..bearings.rows import catalogue
 from ..duty import duty_cycle
 from ..errors import EquilibriumError, SceneError, SceneWarning
@@ -156,8 +157,8 @@ def rating_life(
     (2.2, 0.4, 5.4)
     """
     healthy = replace(checked_scene(scene), defects={})
-    if rating is not None and not 0.0 < rating < math.inf:
-        raise SceneError("rating", repr(rating), "a load above 0 [N]")
+    if rating is not None:
+        positive("rating", rating, "N")
     check_contamination(contamination)
     value, source = (rating, "given") if rating is not None else _rating(healthy)
     formulas = [row_rating(row) for row in healthy.rows]

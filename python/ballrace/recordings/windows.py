@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .._numbers import counted
 from ..errors import SceneError
 
 if TYPE_CHECKING:
@@ -74,9 +75,8 @@ def windows(
     from .._polars import pl
 
     count = samples.n_samples
-    hop = length if hop is None else hop
-    _check("length", length, count)
-    _check("hop", hop, None)
+    length = counted("length", length, 1, count)
+    hop = length if hop is None else counted("hop", hop, 1)
     _check_labels(label, bearing_id)
     assert samples.fs is not None
     starts = np.arange(0, count - length + 1, hop)
@@ -101,13 +101,6 @@ def windows(
             "version": pl.Series([origin.version] * rows, dtype=pl.String),
         }
     )
-
-
-def _check(name: str, number: object, most: int | None) -> None:
-    if isinstance(number, bool) or not isinstance(number, int | np.integer) or number < 1:
-        raise SceneError(name, repr(number), "a whole number of samples, at least 1")
-    if most is not None and number > most:
-        raise SceneError(name, str(number), f"no more samples than there are, {most}")
 
 
 def _check_labels(label: object, bearing_id: object) -> None:

@@ -7,13 +7,13 @@ see ``docs/lubrication.md``.
 from __future__ import annotations
 
 import json
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from typing import Literal
 
 from .. import _core
 from .._document import INSTEAD, Part, encode
+from .._numbers import finite
 from ..errors import SceneError
 
 __all__ = ["BaseOil", "Lubricant", "NamedOil", "OilLayer", "OilProperties", "lubricants"]
@@ -133,7 +133,9 @@ class Lubricant(Part):
         """
         if not isinstance(oil, str):
             raise SceneError("oil", repr(oil), "a named oil, as ballrace.lubricants() lists them")
-        return cls(oil=oil, temperature=_kelvin(temperature_c))
+        return cls(
+            oil=oil, temperature=finite("temperature_c", temperature_c, "°C") + _ZERO_CELSIUS
+        )
 
     def properties(self) -> OilProperties:
         """Return the numbers of the oil at its temperature, with where they come from.
@@ -243,10 +245,3 @@ def chosen(lubricant: str | Lubricant | None, temperature_c: float | None) -> Lu
         has = "there is no lubricant" if lubricant is None else "a Lubricant has its own"
         raise SceneError("temperature_c", repr(temperature_c), f"absent, since {has}")
     return lubricant
-
-
-def _kelvin(temperature_c: float) -> float:
-    is_number = isinstance(temperature_c, int | float) and not isinstance(temperature_c, bool)
-    if not (is_number and math.isfinite(temperature_c)):
-        raise SceneError("temperature_c", repr(temperature_c), "a temperature [°C]")
-    return float(temperature_c) + _ZERO_CELSIUS

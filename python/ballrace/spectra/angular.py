@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .._interrupt import answers_ctrl_c
-from .._numbers import real, real_row
+from .._numbers import counted, real_row
 from ..errors import SceneError
 from .checks import checked_signal
 from .lines import spectrum
@@ -176,9 +176,7 @@ def _checked_turns(angle: ArrayLike, samples: int) -> NDArray[np.float64]:
 def _rates(turns: NDArray[np.float64], per_turn: int | None) -> tuple[int, int]:
     """Return the samples a turn, and how many times as many are taken before the filter."""
     needed = math.ceil(1.0 / np.diff(turns).min())
-    if per_turn is not None and not (real(per_turn) >= 2 and real(per_turn).is_integer()):
-        raise SceneError("per_turn", repr(per_turn), "a whole number of samples a turn, at least 2")
-    rate = needed if per_turn is None else int(per_turn)
+    rate = needed if per_turn is None else counted("per_turn", per_turn, 2)
     if rate * turns[-1] < _FEWEST:
         text = f"more; at {rate} samples a turn it gives fewer than {_FEWEST}"
         raise SceneError("angle", f"{turns[-1]:.3g} turns", text)

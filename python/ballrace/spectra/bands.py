@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from .._numbers import real
+from .._numbers import counted, positive, real
 from ..errors import SceneError
 
 if TYPE_CHECKING:
@@ -158,7 +158,10 @@ def fault_bands(
     >>> [band.label for band in bands if band.fault == "ball"][-2:]
     ['4·BSF', '4·BSF + FTF']
     """
-    _check(shaft, harmonics, sidebands, slip)
+    harmonics, sidebands = counted("harmonics", harmonics, 1), counted("sidebands", sidebands, 0)
+    positive("shaft", shaft)
+    if not 0.0 <= real(slip) < 0.5:
+        raise SceneError("slip", repr(slip), "from 0 to below 0.5")
     ball, hits = (orders.bsf, 2) if spin is None else spin
     rates: tuple[tuple[Fault, float, float], ...] = (
         ("outer_race", orders.bpfo, orders.outer),
@@ -180,16 +183,6 @@ def fault_bands(
         )
         for fault, k, side, at, half in lines
     )  # fmt: skip
-
-
-def _check(shaft: float, harmonics: int, sidebands: int, slip: float) -> None:
-    for name, number, least in (("harmonics", harmonics, 1), ("sidebands", sidebands, 0)):
-        if isinstance(number, bool) or not isinstance(number, int) or number < least:
-            raise SceneError(name, repr(number), f"a whole number, at least {least}")
-    if not 0.0 < real(shaft) < math.inf:
-        raise SceneError("shaft", repr(shaft), "above 0")
-    if not 0.0 <= real(slip) < 0.5:
-        raise SceneError("slip", repr(slip), "from 0 to below 0.5")
 
 
 def fault_band_metrics(

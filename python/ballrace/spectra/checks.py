@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from .._numbers import LARGEST, real, real_row, sampling_rate
+from .._numbers import LARGEST, counted, real, real_row, sampling_rate
 from ..channel import channel_of
 from ..errors import SceneError
 
@@ -72,12 +72,4 @@ def checked_length(name: str, given: int | None, default: int, longest: int) -> 
     SceneError
         It is none from 1 to ``longest``; ``name`` is the argument's.
     """
-    if given is None:
-        return default
-    if (
-        isinstance(given, bool)
-        or not isinstance(given, int | np.integer)
-        or not 1 <= given <= longest
-    ):
-        raise SceneError(name, repr(given), f"a whole number of samples from 1 to {longest}")
-    return int(given)
+    return default if given is None else counted(name, given, 1, longest)

@@ -14,7 +14,7 @@ import numpy as np
 
 from .. import _core
 from .._interrupt import answers_ctrl_c
-from .._numbers import real
+from .._numbers import finite
 from ..errors import SceneError
 from .checks import given_signal
 
@@ -151,7 +151,7 @@ def comb(
     multiples = sorted(set(orders))
     if not multiples or multiples[0] < 1:
         raise SceneError("orders", str(orders), "at least one, from 1")
-    near, width = _checked("near", near), _checked("width", width)
+    near, width = finite("near", near, "Hz"), finite("width", width, "Hz")
     low, high = near - width, near + width
     if not (width > 0.0 and multiples[0] * low + offset > 0.0):
         raise SceneError("width", str(width), "above 0, and lines at positive frequencies")
@@ -211,17 +211,11 @@ def floor(
     >>> floor(f, np.array([1.0, 1.0, 9.0, 1.0, 1.0]), at=2.0, width=2.0)
     (2.0, 1.0)
     """
-    at, width = _checked("at", at), _checked("width", width)
+    at, width = finite("at", at, "Hz"), finite("width", width, "Hz")
     near = (f >= at - width) & (f <= at + width)
     if not near.any():
         raise SceneError("at", str(at), "within the spectrum, and width above its resolution")
     return at, float(np.median(value[near]))
-
-
-def _checked(name: str, frequency: float) -> float:
-    if not math.isfinite(real(frequency)):
-        raise SceneError(name, repr(frequency), "a frequency [Hz]")
-    return real(frequency)
 
 
 def _summit(function: Callable[[float], float], middle: float, span: float) -> float:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .._numbers import real_row
+from .._numbers import counted, real_row
 from .._polars import pl
 from ..channel import Recorded, channel_of
 from ..diagnosis import diagnose
@@ -95,8 +95,7 @@ def trend(
     one = isinstance(records, Recorded | str) or getattr(records, "ndim", 2) == 1
     if one or not isinstance(records, Iterable):
         raise SceneError("records", type(records).__name__, "several records, in the order of time")
-    if isinstance(baseline, bool) or not isinstance(baseline, int | np.integer) or baseline < 3:
-        raise SceneError("baseline", repr(baseline), "a whole number of records, 3 and more")
+    baseline = counted("baseline", baseline, 3)
     options: Any = {
         "outer_rpm": outer_rpm, "row": row, "speed_within": speed_within, "false_alarm": false_alarm,
         "machine": machine, "seed": seed,
