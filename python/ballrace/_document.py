@@ -7,11 +7,10 @@ or ``{tag: value}`` when it only wraps one value. A field whose name is a Python
 from __future__ import annotations
 
 import dataclasses
-import difflib
 import math
 import types
 import typing
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, ClassVar, TypeVar
 
@@ -135,6 +134,10 @@ def decode(kind: type[T], document: object) -> T:
     return part
 
 
+_UNKNOWN = "what this version of the Python package knows"
+"""What is allowed in a document that a core of another version has checked."""
+
+
 def _decode(hint: Any, value: Any, path: str) -> Any:
     origin, arguments = typing.get_origin(hint), typing.get_args(hint)
     if origin in (typing.Union, types.UnionType):
@@ -165,17 +168,10 @@ def _decode_part(kind: type[Part], value: Any, path: str) -> Part:
             return kind(**{name: _decode(hints[name], value, path)})
     for key in value:
         if key not in fields:
-            raise SceneError(_join(path, key), key, _no_such_field(key, fields))
+            raise SceneError(_join(path, key), key, _UNKNOWN)
     return kind(
         **{fields[k]: _decode(hints[fields[k]], v, _join(path, k)) for k, v in value.items()}
     )
-
-
-def _no_such_field(name: str, known: Iterable[str]) -> str:
-    """Name the field that an unknown one may be meant for, and those that there are."""
-    near = difflib.get_close_matches(name, known, n=1, cutoff=0.7)
-    perhaps = f", perhaps {near[0]}" if near else ""
-    return f"no such field{perhaps}; there are: {', '.join(known)}"
 
 
 def _choose(choices: tuple[Any, ...], value: Any, path: str) -> Any:
@@ -195,7 +191,7 @@ def _choose(choices: tuple[Any, ...], value: Any, path: str) -> Any:
             )
         if fits:
             return choice
-    raise SceneError(path, str(value), "a variant this version of the Python package does not know")
+    raise SceneError(path, str(value), _UNKNOWN)
 
 
 _HINTS: dict[type, dict[str, Any]] = {}
