@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from . import _core
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -16,11 +18,7 @@ __all__ = ["axis_ratio", "semi_axes"]
 
 
 def axis_ratio(row: Row, race: Literal["outer", "inner"]) -> float:
-    """Return the ellipse's axis across the rolling direction over that along it.
-
-    With the curvatures of ball and race added across (A) and along (B) the rolling direction, it solves
-    ``(B - A)/(B + A) = ((κ² + 1) E - 2 K) / ((κ² - 1) E)``, where K and E are the complete elliptic integrals of
-    ``m = 1 - 1/κ²`` (T. A. Harris, *Rolling Bearing Analysis*, chapter on contact stress).
+    """Return the ellipse's axis across the rolling direction over that along it, at the nominal contact angle.
 
     Examples
     --------
@@ -29,22 +27,14 @@ def axis_ratio(row: Row, race: Literal["outer", "inner"]) -> float:
     >>> round(axis_ratio(row, "outer"), 2), round(axis_ratio(row, "inner"), 2)
     (5.72, 9.34)
     """
-    from scipy.optimize import brentq
-    from scipy.special import ellipe, ellipk
-
-    gamma = row.ball_diameter * math.cos(row.contact_angle) / row.pitch_diameter
-    conformity = row.outer_conformity if race == "outer" else row.inner_conformity
-    across = 1.0 - 0.5 / conformity
-    along = 1.0 - gamma / (1.0 + gamma) if race == "outer" else 1.0 + gamma / (1.0 - gamma)
-    wanted = (along - across) / (along + across)
-
-    def missing(logarithm: float) -> float:
-        square = math.exp(2.0 * logarithm)
-        m = 1.0 - 1.0 / square
-        K, E = float(ellipk(m)), float(ellipe(m))
-        return ((square + 1.0) * E - 2.0 * K) / ((square - 1.0) * E) - wanted
-
-    return math.exp(float(brentq(missing, 1e-4, 12.0)))
+    outer = race == "outer"
+    return _core.axis_ratio(
+        1.0 if outer else -1.0,
+        row.ball_diameter,
+        row.pitch_diameter,
+        row.outer_conformity if outer else row.inner_conformity,
+        row.contact_angle,
+    )
 
 
 def semi_axes(

@@ -11,7 +11,8 @@ use pyo3::prelude::*;
 use super::errors::OrRaise;
 use ballrace::RowKinematics;
 use ballrace::bindings::{self, Recorded, check_recorded, features_of};
-use ballrace::scene::kinematic_orders;
+use ballrace::contact::hertz::Hertz;
+use ballrace::scene::{Material, kinematic_orders};
 use ballrace::{Error, Feature, FeatureOptions, Scene};
 
 type Array<'py> = PyReadonlyArray1<'py, f64>;
@@ -28,6 +29,29 @@ pub(super) fn orders(
     contact_angle: f64,
 ) -> (f64, f64, f64, f64) {
     kinematic_orders(ball_count, ball_diameter, pitch_diameter, contact_angle).into()
+}
+
+/// Axis of a contact's ellipse across the rolling direction over that along it, on a race of sense σ (+1 outer); materials do
+/// not change it.
+#[pyfunction]
+pub(super) fn axis_ratio(
+    sigma: f64,
+    ball_diameter: f64,
+    pitch_diameter: f64,
+    conformity: f64,
+    contact_angle: f64,
+) -> f64 {
+    let steel = Material::default();
+    let ellipse = Hertz::new(
+        sigma,
+        ball_diameter,
+        pitch_diameter,
+        conformity,
+        contact_angle,
+        &steel,
+        &steel,
+    );
+    ellipse.half_length / ellipse.half_width
 }
 
 /// Squared envelope within a band.

@@ -23,8 +23,8 @@ mod _core {
     use super::campaign::{available_threads, campaign, check_run, instruction_sets};
     #[pymodule_export]
     use super::features::{
-        amplitudes, feature_columns, hann_weighted, orders, run_features, signal_features,
-        squared_envelope,
+        amplitudes, axis_ratio, feature_columns, hann_weighted, orders, run_features,
+        signal_features, squared_envelope,
     };
     #[pymodule_export]
     use super::oil::{named_oils, oil};

@@ -44,12 +44,6 @@ impl CompiledScene {
         self.0.bodies()
     }
 
-    /// Number of states.
-    #[getter]
-    fn dim(&self) -> usize {
-        self.0.dim()
-    }
-
     /// State at which a run starts.
     fn start<'py>(&self, py: Python<'py>, kind: &str) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let start = match kind {
