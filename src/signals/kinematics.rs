@@ -4,13 +4,13 @@
 //! without race control they spin about an axis of their own: the error of rolling at one mean angle, as in tables of frequencies, is
 //! then several percent. A run measures it.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
 use crate::base::error::Result;
 use crate::base::words::{Remembered, Words};
-use crate::contact::Motion;
+use crate::contact::{Motion, wrapped};
 use crate::dynamics::Dynamics;
 use crate::inspect;
 use crate::integrate::DenseStep;
@@ -251,9 +251,4 @@ fn rolls(model: &Model, row: &RowModel, y: &[f64]) -> Option<RowRolling> {
 /// How fast a ball turns against its orbit \[rad/s\].
 fn against(motion: &Motion, orbit: f64) -> f64 {
     (motion.omega - orbit).hypot(motion.across.norm())
-}
-
-/// An angle in (−π, π].
-fn wrapped(angle: f64) -> f64 {
-    angle - TAU * ((angle - PI) / TAU).ceil()
 }
