@@ -59,33 +59,12 @@ impl FilmNow {
         2.0 * self.bend(r)
     }
 
-    /// α_f \[s/m\]: the film damps by the factor 1 + 3/2 α_f v_n on the elastic force.
-    pub fn damping_coefficient(&self, r: f64) -> f64 {
-        self.damping(r) / 1.5
-    }
-
-    /// F_R \[N\] of a contact that rolls at the entrainment speed ũ.
-    pub fn rolling_resistance(&self, r: f64) -> f64 {
-        self.rolling(r) * self.entrainment
-    }
-
     /// c = v/2 \[m/s\].
     pub(crate) fn bend(&self, r: f64) -> f64 {
         self.traction.bend(r)
     }
 
-    /// 3/2 α_f \[s/m\], to add to 3/2 α_d.
-    pub(crate) fn damping(&self, r: f64) -> f64 {
-        self.damping.rate(r)
-    }
-
-    /// F_R over the entrainment speed u of the contact \[N s/m\].
-    pub(crate) fn rolling(&self, r: f64) -> f64 {
-        let [film, steel] = self.rolling_parts(r);
-        film + steel
-    }
-
-    /// The same of film and of steel.
+    /// F_R over the entrainment speed u of the contact \[N s/m\], of film and of steel.
     pub(crate) fn rolling_parts(&self, r: f64) -> [f64; 2] {
         self.rolling.parts(r)
     }

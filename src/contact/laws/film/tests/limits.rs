@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::super::{FilmEffect, FilmNumbers, Oiled};
 use super::{
     Effects, Film, FilmNow, LubricatedRace, Oil, SPEED, answers, film, film_of, near, race,
-    reference, vg68,
+    reference, rolling, vg68,
 };
 use crate::simd::{LANES, Lanes};
 
@@ -64,11 +64,7 @@ fn much_oil_is_flooded() {
     };
     let (much, flooded) = (of(Some(1.0)), of(None));
     near(much.thickness(), flooded.thickness(), 1e-12);
-    near(
-        much.rolling_resistance(0.8),
-        flooded.rolling_resistance(0.8),
-        1e-5,
-    );
+    near(rolling(&much, 0.8), rolling(&flooded, 0.8), 1e-5);
 }
 
 /// Where a contact begins all are finite, forces begin with slope zero, and none has a kink.

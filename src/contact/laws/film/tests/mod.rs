@@ -66,11 +66,16 @@ fn near(found: f64, told: f64, tolerance: f64) {
     assert!(off <= tolerance, "{found:e}, not {told:e}: {off:.1e}");
 }
 
+/// F_R over the entrainment speed \[N s/m\].
+fn rolling(now: &FilmNow, r: f64) -> f64 {
+    now.rolling_parts(r).iter().sum()
+}
+
 /// v, α_f and F_R at u = ũ.
 fn answers(now: &FilmNow, r: f64) -> [f64; 3] {
     [
         now.slip_scale(r),
-        now.damping_coefficient(r),
-        now.rolling_resistance(r),
+        now.damping.rate(r) / 1.5,
+        rolling(now, r) * now.entrainment(),
     ]
 }

@@ -108,7 +108,7 @@ fn damping_is_that_of_section_12_6() {
     let loads = [5.0, 20.0, 100.0, 250.0, 1000.0];
     for (load, told) in loads.into_iter().zip([15.5, 17.0, 13.4, 10.7, 7.1]) {
         let r = (load / 250.0_f64).cbrt();
-        near(1.5 * now.damping_coefficient(r) * load, told, 5e-3);
+        near(now.damping.rate(r) * load, told, 5e-3);
     }
 }
 
@@ -243,8 +243,8 @@ fn free_impacts_lose_what_they_should() {
     for (speed, told) in rows {
         let found = [
             restitution(speed, |_| dry),
-            restitution(speed, |r| now.damping(r)),
-            restitution(speed, |r| now.damping(r) + dry),
+            restitution(speed, |r| now.damping.rate(r)),
+            restitution(speed, |r| now.damping.rate(r) + dry),
         ];
         println!("{speed} m/s: {found:.4?}");
         for (found, told) in found.into_iter().zip(told) {
