@@ -2,6 +2,7 @@
 //!
 //! Each test names its truth. Nothing here depends on bearings.
 
+use crate::common::slope;
 use std::ops::ControlFlow;
 
 use ballrace::integrate::{
@@ -69,19 +70,6 @@ fn wave(t: f64, y: &[f64], dy: &mut [f64]) {
 
 fn wave_truth(t: f64) -> f64 {
     t.sin().exp()
-}
-
-/// Slope of the least-squares line through `(ln h, ln error)`.
-fn slope(points: &[(f64, f64)]) -> f64 {
-    let n = points.len() as f64;
-    let logs = points.iter().map(|(h, e)| (h.ln(), e.ln()));
-    let (mx, my) = logs
-        .clone()
-        .fold((0.0, 0.0), |(a, b), (x, y)| (a + x / n, b + y / n));
-    let (xy, xx) = logs.fold((0.0, 0.0), |(xy, xx), (x, y)| {
-        (xy + (x - mx) * (y - my), xx + (x - mx) * (x - mx))
-    });
-    xy / xx
 }
 
 /// Errors at the end and, largest over the run, between the steps.

@@ -11,7 +11,7 @@ use ballrace::scene::{
     Defect, Drive, Friction, Method, NormalLaw, Scene, Slices, Surface, presets,
 };
 use ballrace::{Bandwidth, Run, Start, compile, equilibrium, simulate, start};
-use common::{Noise, soon_over_the_spall};
+use common::{Noise, running_errors, soon_over_the_spall};
 
 /// What is allowed.
 const PERCENT: f64 = 1e-2;
@@ -109,18 +109,6 @@ fn accelerations(scene: &Scene, y0: &[f64]) -> Option<(Vec<[f64; 3]>, usize)> {
     Some((samples, out.stats.nfev))
 }
 
-/// Relative errors over the first samples, for each number of them.
-fn errors(found: &[[f64; 3]], truth: &[[f64; 3]]) -> Vec<f64> {
-    let (mut off, mut size) = (0.0, 0.0);
-    let pairs = found.iter().flatten().zip(truth.iter().flatten());
-    let running = pairs.map(|(x, y)| {
-        off += (x - y) * (x - y);
-        size += y * y;
-        (off / size).sqrt()
-    });
-    running.skip(2).step_by(3).collect()
-}
-
 /// The whole error of the defaults, for how long, and the evaluations that they and Dormand–Prince took; none where nothing can
 /// be predicted.
 fn judged(scene: &Scene) -> Option<(f64, f64, [usize; 2])> {
@@ -136,7 +124,7 @@ fn judged(scene: &Scene) -> Option<(f64, f64, [usize; 2])> {
     };
     let (truth, _) = fine(1e-9, 0.2)?;
     let (near, _) = fine(1e-8, 0.3)?;
-    let last = errors(&near, &truth)
+    let last = running_errors(&near, &truth)
         .iter()
         .rposition(|error| *error < PERCENT / 100.0)?;
     if last < LEAST_SAMPLES {
@@ -147,7 +135,7 @@ fn judged(scene: &Scene) -> Option<(f64, f64, [usize; 2])> {
     (pair.solver.method, pair.solver.rtol) = (Method::DormandPrince, 1e-6);
     let (_, of_pair) = accelerations(&pair, &y0)?;
     Some((
-        errors(&found, &truth)[last],
+        running_errors(&found, &truth)[last],
         last as f64 / 1e5,
         [nfev, of_pair],
     ))

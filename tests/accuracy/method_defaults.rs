@@ -11,7 +11,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use ballrace::compile;
 use ballrace::scene::{Defect, Drive, Friction, Method, Scene, Surface, presets};
 use ballrace::{Error, Run, Signals, Start, simulate, start};
-use common::{Noise, short, soon_over_the_spall};
+use common::{Noise, running_errors, short, soon_over_the_spall};
 
 const METHODS: [Method; 3] = [Method::Adams, Method::DormandPrince, Method::Verner];
 
@@ -181,18 +181,6 @@ fn accelerations(signals: &Signals) -> Vec<[f64; 3]> {
     (0..x.len()).map(|k| [x[k], y[k], z[k]]).collect()
 }
 
-/// Relative errors over the first samples, for each number of them.
-fn errors(found: &[[f64; 3]], truth: &[[f64; 3]]) -> Vec<f64> {
-    let (mut off, mut size) = (0.0, 0.0);
-    let pairs = found.iter().flatten().zip(truth.iter().flatten());
-    let running = pairs.map(|(x, y)| {
-        off += (x - y) * (x - y);
-        size += y * y;
-        (off / size).sqrt()
-    });
-    running.skip(2).step_by(3).collect()
-}
-
 /// A start, the truth from there, and for how many samples it can be predicted.
 struct Truth {
     y0: Vec<f64>,
@@ -206,7 +194,7 @@ fn truth(case: &Case) -> Option<Truth> {
     let y0 = start(&model, &case.start).ok()?;
     let at = |rtol, share| run(&case.scene, &y0, Method::DormandPrince, Some((rtol, share)));
     let exact = accelerations(&at(1e-10, 0.1).ok()?);
-    let nearly = errors(&accelerations(&at(1e-8, 0.15).ok()?), &exact);
+    let nearly = running_errors(&accelerations(&at(1e-8, 0.15).ok()?), &exact);
     let samples = 1 + nearly.iter().rposition(|error| *error <= MOST / 1000.0)?;
     (samples >= LEAST_SAMPLES).then_some(Truth {
         y0,
@@ -236,7 +224,8 @@ fn judge(cases: impl Iterator<Item = Case>) -> usize {
                     continue;
                 }
             };
-            let error = errors(&accelerations(&out), &truth.accelerations)[truth.samples - 1];
+            let error =
+                running_errors(&accelerations(&out), &truth.accelerations)[truth.samples - 1];
             let told = !out.warnings().is_empty();
             let evaluations = out.stats.nfev as f64 / 3e3;
             print!(

@@ -2,6 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use crate::common::rms;
 use ballrace::compile;
 use ballrace::dynamics::contributions;
 use ballrace::scene::{Defect, NormalLaw, Scene, Slices, Surface, presets};
@@ -41,10 +42,6 @@ fn forces(scene: &Scene, slices: Slices, approach: f64, arc: f64, shift: f64) ->
 fn error(a: &[f64], b: &[f64]) -> f64 {
     let norm = |x: &mut dyn Iterator<Item = f64>| x.map(|v| v * v).sum::<f64>().sqrt();
     norm(&mut a.iter().zip(b).map(|(x, y)| x - y)) / norm(&mut b.iter().copied())
-}
-
-fn rms(errors: &[f64]) -> f64 {
-    (errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64).sqrt()
 }
 
 const LAWS: [NormalLaw; 2] = [

@@ -2,13 +2,14 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
+use crate::common::{rms, run};
 use ballrace::compile;
 use ballrace::dynamics::contributions;
 use ballrace::inspect;
 use ballrace::scene::{
     Defect, Friction, Load, NormalLaw, Probe, RingName, Scene, Slices, Support, Surface, presets,
 };
-use ballrace::{Bandwidth, Model, Race, Run, Signals, Start, simulate, start};
+use ballrace::{Bandwidth, Model, Race, Run, Start, start};
 
 /// The wheel bearing at +3 kN without its defect.
 fn healthy() -> Scene {
@@ -21,14 +22,6 @@ fn spall(on: Surface, width: f64) -> Defect {
     let mut defect = Defect::new(on, -FRAC_PI_2, 3e-3, width, 0.3e-3).at_offset(0.5e-3);
     defect.ball = (on == Surface::Ball).then_some(1);
     defect
-}
-
-fn run(scene: &Scene, run: &Run) -> Signals {
-    simulate(scene, run).unwrap()
-}
-
-fn rms(x: &[f64]) -> f64 {
-    (x.iter().map(|v| v * v).sum::<f64>() / x.len() as f64).sqrt()
 }
 
 /// Forces that the bodies of a state put on each other, without what acts from outside.

@@ -74,6 +74,34 @@ pub fn apart(x: &[f64], truth: &[f64]) -> f64 {
     rms(&difference) / rms(truth)
 }
 
+/// Restitution v_o/v_i under Hunt–Crossley's force by α_d v_i: b v_i − ln(1 + b v_i) = −b v_o − ln(1 − b v_o), b = 3/2 α_d.
+pub fn restitution_of(damped: f64) -> f64 {
+    let b = 1.5 * damped;
+    let lost = b - b.ln_1p();
+    let (mut low, mut high) = (0.0, f64::min(1.0, 1.0 / b));
+    for _ in 0..100 {
+        let middle = f64::midpoint(low, high);
+        if -b * middle - (-b * middle).ln_1p() < lost {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    low
+}
+
+/// Relative errors of accelerations over the first samples, for each number of them.
+pub fn running_errors(found: &[[f64; 3]], truth: &[[f64; 3]]) -> Vec<f64> {
+    let (mut off, mut size) = (0.0, 0.0);
+    let pairs = found.iter().flatten().zip(truth.iter().flatten());
+    let running = pairs.map(|(x, y)| {
+        off += (x - y) * (x - y);
+        size += y * y;
+        (off / size).sqrt()
+    });
+    running.skip(2).step_by(3).collect()
+}
+
 /// Slope of the least-squares line through `(ln h, ln error)`.
 pub fn slope(points: &[(f64, f64)]) -> f64 {
     let n = points.len() as f64;
