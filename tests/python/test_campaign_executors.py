@@ -59,7 +59,7 @@ def test_a_dask_worker_is_killed(whole: br.Campaign, tmp_path: Path) -> None:
     killed: list[int] = []
     with (
         distributed.LocalCluster(
-            n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
+            n_workers=2, threads_per_worker=1, processes=True, dashboard_address=":0"
         ) as cluster,
         distributed.Client(cluster) as client,
     ):
