@@ -80,7 +80,7 @@ def test_results_outlive_the_description(whole: br.Campaign, folder: Path, how: 
                 (folder / name).unlink()
     with pytest.raises(br.CampaignError, match=r"holds no campaign|run the campaign again"):
         br.Campaign.open(folder)
-    with pytest.warns(br.CampaignWarning, match="finished cases are known by their ids"):
+    with pytest.warns(br.CampaignWarning, match="finished cases keep their ids"):
         done, ran = called_again(folder)
     assert (same(done, whole), ran) == (True, 0)
     assert done.verify()["problem"].drop_nulls().is_empty()
@@ -90,7 +90,7 @@ def test_features_by_other_options_are_not_readmitted(folder: Path) -> None:
     """The ids of cases do not tell them."""
     for name in NAMES:
         (folder / name).unlink()
-    with pytest.warns(br.CampaignWarning, match="known by their ids"):
+    with pytest.warns(br.CampaignWarning, match="keep their ids"):
         done, ran = called_again(folder, skip=1e-3)
     assert ran == 4
     fresh = run(table(4), folder.with_name("fresh"), keep="signals", skip=1e-3)

@@ -53,11 +53,11 @@ def test_a_title_that_looks_like_toml() -> None:
 def test_comments_are_those_of_the_schema() -> None:
     text = br.presets.wheel_bearing().to_toml(comments=True)
     assert (
-        "width = 0.0015  # Arc length along the surface [m]; of a cap or pit a plain number.\n"
+        "width = 0.0015  # Arc length along the surface [m]; for a cap, a pit and steep walls one number.\n"
         in text
     )
-    assert "speed = 188.49555921538757  # Speed [rad/s]; may not jump.\n" in text
-    assert "fitted = 6  # Nodes a piece of the zone, 2 to 64.\n" in text
+    assert "speed = 188.49555921538757  # Speed [rad/s]; must not jump.\n" in text
+    assert "fitted = 6  # Nodes on each piece, 2 to 64.\n" in text
     assert "# Friction with a constant coefficient.\n[friction.coulomb]\n" in text
     assert 'ring = "inner"  # The loaded ring. One of "outer", "inner".\n' in text
     # None is what TOML cannot say, and marks of docstrings are for the reference.

@@ -123,7 +123,7 @@ def test_unusable_arguments_are_named(argument: str, value: Any) -> None:
 
 
 def test_thrust_wants_the_static_rating() -> None:
-    with pytest.raises(br.SceneError, match="static_rating = None: given"):
+    with pytest.raises(br.SceneError, match="static_rating = None: a rating"):
         skf(axial_load=100.0)
     with pytest.raises(br.SceneError, match="static_rating"):
         skf(axial_load=100.0, static_rating=0.0)
