@@ -16,8 +16,8 @@ use std::f64::consts::{PI, TAU};
 use ballrace::compile;
 use ballrace::contact::hertz::Hertz;
 use ballrace::scene::{
-    Component, Contact, ContactQuantity, Friction, Material, Mount, NormalLaw, Probe, Scene,
-    Support, presets,
+    Component, Contact, ContactQuantity, Friction, Material, Mount, NormalLaw, Probe, Support,
+    presets,
 };
 use ballrace::{Bandwidth, Run, Start, start};
 use common::{meets, restitution_of, run};

@@ -7,7 +7,7 @@ use crate::common;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use ballrace::Run;
-use ballrace::scene::{ContactQuantity, Defect, Probe, Scene, Support, Surface, presets};
+use ballrace::scene::{ContactQuantity, Defect, Probe, Support, Surface, presets};
 use common::{meets, run};
 
 /// A ball of a Koyo 1205 (one row, no clearance, no cage) at the load line comes to a spall of a width \[m\] on a

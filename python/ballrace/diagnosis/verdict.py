@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from .kinematics import Kinematics
     from .strength import Limits
 
-__all__ = ["NAMES", "UNLIKELY", "Verdict", "Verdicts", "decided", "own_lines"]
+__all__ = ["DOUBT", "NAMES", "UNLIKELY", "Verdict", "Verdicts", "decided", "own_lines"]
 
 Verdicts = Literal["healthy", "damaged", "undecided"]
 
@@ -27,7 +27,7 @@ NAMES: dict[Part, str] = {
     "outer_race": "outer race", "inner_race": "inner race", "ball": "ball", "cage": "cage",
 }  # fmt: skip
 
-_DOUBT = 3.0
+DOUBT = 3.0
 """Up to so many times the false-alarm rate a part with strong lines is doubted, not cleared.
 
 There the likelihood ratio decides, where no part has lines that stand out: at 1 % it names 32 of 432 damaged parts
@@ -120,7 +120,7 @@ def decided(
     doubted = [
         one
         for one in ranked
-        if one.probability < _DOUBT * false_alarm and not one.strength.is_shallow and is_loud(one)
+        if one.probability < DOUBT * false_alarm and not one.strength.is_shallow and is_loud(one)
     ]
     for one in doubted:
         if not own and not _looks_sound(one) and _not_sure(one, limits, silent) is None:
