@@ -1,5 +1,5 @@
 //! One benchmark a layer: the power, a contact, a right-hand side by nodes, slices, balls, threads,
-//! instruction set and rings that lean, the integrator alone, a run, the static solve. `cargo bench -p ballrace-benches --bench layers`.
+//! instruction set and rings that tilt, the integrator alone, a run, the static solve. `cargo bench -p ballrace-benches --bench layers`.
 
 use std::hint::black_box;
 use std::ops::ControlFlow;
@@ -110,9 +110,9 @@ fn upright(y: &[f64]) -> Vec<f64> {
 }
 
 /// A parallel bearing's state turned as a whole by 1 mrad about x, for rings free to tilt: the same balls touch alike.
-fn turned(parallel: &Model, y: &[f64], leaning: &Model) -> Vec<f64> {
+fn turned(parallel: &Model, y: &[f64], tilted: &Model) -> Vec<f64> {
     const TILT: f64 = 1e-3;
-    let (half, all) = (y.len() / 2, leaning.dim() / 2);
+    let (half, all) = (y.len() / 2, tilted.dim() / 2);
     let cos = (1.0 - TILT * TILT).sqrt();
     let mut found = vec![0.0; 2 * all];
     for (from, to) in [(&y[..half], 0), (&y[half..], all)] {
@@ -122,15 +122,15 @@ fn turned(parallel: &Model, y: &[f64], leaning: &Model) -> Vec<f64> {
             (body[1], body[2]) = (y * cos - z * TILT, y * TILT + z * cos);
         }
     }
-    assert_eq!(leaning.names()[half], "outer.tilt_x");
+    assert_eq!(tilted.names()[half], "outer.tilt_x");
     assert_eq!((all - half, parallel.dim()), (4, 2 * half));
     (found[half], found[half + 2]) = (TILT, TILT);
     found
 }
 
 /// Parallel rings against the same ones free to tilt.
-fn leaning_rings(c: &mut Criterion) {
-    let mut group = c.benchmark_group("rhs of leaning rings");
+fn tilted_rings(c: &mut Criterion) {
+    let mut group = c.benchmark_group("rhs of tilted rings");
     let wheel = || presets::wheel_bearing(3000.0);
     let mut oiled = wheel();
     let mut oil = Lubricant::named("vg68", 328.15);
@@ -157,13 +157,13 @@ fn leaning_rings(c: &mut Criterion) {
         let one = compile(&scene).unwrap();
         let outer = &mut scene.outer_ring.support;
         (outer.tilt_x, outer.tilt_y) = (free(), free());
-        let leaning = compile(&scene).unwrap();
-        let (upright, tilted) = (upright(&y), turned(&parallel, &y, &leaning));
+        let both = compile(&scene).unwrap();
+        let (upright, tilted) = (upright(&y), turned(&parallel, &y, &both));
         for instructions in InstructionSet::available() {
             for (kind, model, y) in [
                 ("parallel", &parallel, &y),
-                ("inner free to lean", &one, &upright),
-                ("leaning", &leaning, &tilted),
+                ("inner free to tilt", &one, &upright),
+                ("tilted", &both, &tilted),
             ] {
                 let model = model.clone().with_instructions(instructions);
                 let mut dynamics = Dynamics::new(&model);
@@ -295,7 +295,7 @@ criterion_group!(
     layers,
     contact,
     right_hand_side,
-    leaning_rings,
+    tilted_rings,
     threads,
     integrator,
     run,

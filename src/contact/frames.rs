@@ -3,7 +3,7 @@
 //! * The **scene's** frame is inertial: x to the right, y up, z along the bearing's axis.
 //! * A **ring's** frame has its origin at the ring's centre and moves with it. A contact is evaluated in it. Its axes keep the
 //!   directions of the scene's, unless the ring tilts: then z is the ring's axis, and x and y are turned with it by the shortest
-//!   way ([`LeaningRing`]). What is fixed to the ring, defects and waves, stands at angles from a mark that has turned by θ.
+//!   way ([`TiltedRing`]). What is fixed to the ring, defects and waves, stands at angles from a mark that has turned by θ.
 //! * The **cage's** frame turns about the bearing's axis at the orbit speed of the balls. A bearing that rolls steadily is at
 //!   rest in it, under the centrifugal force.
 
@@ -136,7 +136,7 @@ impl Motion {
 
 /// A ring that may tilt, for its contacts.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct LeaningRing {
+pub(crate) struct TiltedRing {
     pub rotation: Rotation,
     /// Its centre of mass \[m\].
     centre: Vector3<f64>,
@@ -151,7 +151,7 @@ pub(crate) struct LeaningRing {
     balls_turn: bool,
 }
 
-impl LeaningRing {
+impl TiltedRing {
     /// Of a ring whose x, y and z are the displacement of its centre of mass, an axial place of the
     /// ring's frame \[m\]; its balls spin freely, or about its axis.
     pub fn new(motion: &Motion, rotation: Rotation, offset: f64, balls_turn: bool) -> Self {

@@ -44,7 +44,7 @@ pub use defect::Fault;
 pub(crate) use defect::{MOST_PITS, PittedContact, Sight, Toward, pits_at_once};
 #[doc(hidden)]
 pub use frames::Motion;
-pub(crate) use frames::{LeaningRing, attitude_accelerations, attitude_rates, centrifugal};
+pub(crate) use frames::{TiltedRing, attitude_accelerations, attitude_rates, centrifugal};
 pub(crate) use held::{
     AXIAL, Around, FREE, HeldContacts, HeldElements, HeldSlope, SlicePack, SlicePacking, in_contact,
 };

@@ -8,7 +8,7 @@
 use nalgebra::Vector3;
 
 use super::defect::WITH_RING_AXIS;
-use super::{Aside, LeaningRing, OilTouch, Sink, Touch, V2, cross};
+use super::{Aside, OilTouch, Sink, TiltedRing, Touch, V2, cross};
 
 /// Force on a ball \[N\] and moment about its centre \[N m\], in the frame of its ring.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -70,7 +70,7 @@ impl WrenchSum {
     /// On the ball, in the scene's frame, and on the ring about its own point, from which the ball stands at a place: in its own frame where
     /// it may tilt. Balls that do not spin freely turn about the ring's axis; what acts on their caps across it, in
     /// the ring's frame, turns with them about z of the scene.
-    pub fn on_bodies(&self, place: &Vector3<f64>, ring: Option<&LeaningRing>) -> [Wrench; 2] {
+    pub fn on_bodies(&self, place: &Vector3<f64>, ring: Option<&TiltedRing>) -> [Wrench; 2] {
         let (on_ball, on_ring) = (&self.wrench, self.wrench.on_ring(place));
         let Some(ring) = ring else {
             return [*on_ball, on_ring];

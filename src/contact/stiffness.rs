@@ -137,12 +137,12 @@ impl Pair {
         let [radial, axial] = found.force;
         // Along n, t = ẑ × n and z the ball gets −σ F_r, σ F_r R̃'/d and −F_a; n and t turn with its direction, and
         // ∂e = σ ∂n − σ R̃'/d ∂t.
-        let (lean, bend) = (wave_slope / distance, wave_bend / distance);
-        let across = sigma * radial * lean;
-        let [nn, nt, nz] = [r_e, -r_e * lean + across / distance, -sigma * r_c];
-        let tt = r_e * lean * lean + sigma * radial * (1.0 - bend) / distance;
-        let tz = sigma * r_c * lean;
-        let [zn, zt, zz] = [sigma * a_e, -sigma * a_e * lean, -a_c];
+        let (incline, bend) = (wave_slope / distance, wave_bend / distance);
+        let across = sigma * radial * incline;
+        let [nn, nt, nz] = [r_e, -r_e * incline + across / distance, -sigma * r_c];
+        let tt = r_e * incline * incline + sigma * radial * (1.0 - bend) / distance;
+        let tz = sigma * r_c * incline;
+        let [zn, zt, zz] = [sigma * a_e, -sigma * a_e * incline, -a_c];
         // The same along x, y and z.
         let (x, y) = (n.x, n.y);
         let skew = nn * x * y + nt * (x * x - y * y) - tt * x * y;

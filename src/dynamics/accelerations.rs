@@ -11,8 +11,8 @@ impl Dynamics<'_> {
         for (acceleration, body) in bodies.zip(self.model.layout().bodies()) {
             *acceleration = self.acceleration(t, body);
         }
-        if let Some(leaning) = &self.leaning {
-            leaning.accelerate(self.model, t, &self.state, accelerations);
+        if let Some(tilted) = &self.tilted {
+            tilted.accelerate(self.model, t, &self.state, accelerations);
         }
     }
 

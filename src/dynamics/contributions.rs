@@ -42,24 +42,24 @@ pub(crate) fn contributions_coated(
     let names = contribution_names();
     let mut parts = vec![Table::zeros(bodies); names.len()];
     let rings = state.rings();
-    let leaning = model
+    let tilted = model
         .is_spatial()
-        .then(|| Race::BOTH.map(|race| state.leaning(model, race)));
+        .then(|| Race::BOTH.map(|race| state.tilted(model, race)));
     for (j, ball) in model.balls.iter().enumerate() {
         let body = BodyId::ball(j);
         for race in Race::BOTH {
             let mut named = SumsByOrigin::default();
             let pair = &model.rows[ball.row].pairs[race];
-            let [at, ring] = match &leaning {
-                Some(leaning) => leaning[race].facing(&state.motion(body)),
+            let [at, ring] = match &tilted {
+                Some(tilted) => tilted[race].facing(&state.motion(body)),
                 None => [state.motion(body), rings[race]],
             };
             pair.evaluate(&ball.side, &at, &ring, &mut named);
-            let (place, leaning) = (at.seen_from(&ring).place(), leaning.as_ref());
-            let leaning = leaning.map(|leaning| &leaning[race]);
+            let (place, tilted) = (at.seen_from(&ring).place(), tilted.as_ref());
+            let tilted = tilted.map(|tilted| &tilted[race]);
             for (part, sum) in parts.iter_mut().zip(named.0) {
-                let [on_ball, mut on_ring] = sum.on_bodies(&place, leaning);
-                if let Some(ring) = leaning {
+                let [on_ball, mut on_ring] = sum.on_bodies(&place, tilted);
+                if let Some(ring) = tilted {
                     on_ring.force = ring.rotation.frame.to_scene(&on_ring.force);
                 }
                 part.add(body, &on_ball.about_axis());
@@ -76,7 +76,7 @@ pub(crate) fn contributions_coated(
         state: &state,
         rows: 0..model.rows.len(),
         springs: &model.springs,
-        rings: leaning.as_ref().map(<[_; 2]>::each_ref),
+        rings: tilted.as_ref().map(<[_; 2]>::each_ref),
     };
     let into = |table: &mut Table, add: &dyn Fn(&mut ForceSums<'_>)| {
         let mut moments = [Vector3::zeros(); 2];

@@ -6,9 +6,6 @@ mod contributions;
 mod evaluation;
 mod films;
 mod kept;
-mod leaning;
-#[cfg(test)]
-mod leaning_tests;
 #[cfg(test)]
 mod lost;
 mod order;
@@ -17,6 +14,9 @@ mod rolling;
 #[cfg(test)]
 mod spinning_tests;
 mod sums;
+mod tilted;
+#[cfg(test)]
+mod tilted_tests;
 
 use crate::base::pool::Pool;
 use crate::forces::cage::CageLinks;
@@ -31,11 +31,11 @@ pub use contributions::{contribution_names, contributions};
 
 use films::Films;
 use kept::Kept;
-use leaning::SpatialWork;
-pub(crate) use leaning::turning_accelerations;
 use order::Order;
 use planar::{Ground, Planar};
 use rolling::RollingRows;
+use tilted::SpatialWork;
+pub(crate) use tilted::turning_accelerations;
 
 /// The right-hand side of a model, with the memory that evaluating it needs. Each run has its own.
 #[derive(Debug)]
@@ -58,7 +58,7 @@ pub struct Dynamics<'m> {
     /// Films that follow the rings' speed.
     films: Option<Films>,
     /// Rings that may tilt.
-    leaning: Option<Box<SpatialWork>>,
+    tilted: Option<Box<SpatialWork>>,
 }
 
 impl<'m> Dynamics<'m> {
@@ -99,7 +99,7 @@ impl<'m> Dynamics<'m> {
         }));
         let mut dynamics = Self::with(model, order, kind);
         // Only scenes that stay in the plane are reduced: what tilts or spins freely in them rests.
-        dynamics.leaning = None;
+        dynamics.tilted = None;
         dynamics.constant = constant(model, false);
         if keeps_axial_places {
             dynamics.mobility.along_mut(Dof::Z).fill(0.0);
@@ -157,7 +157,7 @@ impl<'m> Dynamics<'m> {
             mobility,
             pool: None,
             films: Films::new(model),
-            leaning: SpatialWork::new(model),
+            tilted: SpatialWork::new(model),
         }
     }
 
@@ -242,8 +242,8 @@ impl<'m> Dynamics<'m> {
     }
 
     /// Whether contacts are evaluated in the frames of rings that may tilt.
-    pub(crate) fn leans(&self) -> bool {
-        self.leaning.is_some()
+    pub(crate) fn tilts(&self) -> bool {
+        self.tilted.is_some()
     }
 
     /// Takes over a state vector.
@@ -281,8 +281,8 @@ impl<'m> Dynamics<'m> {
         };
         let (state, forces) = (&self.state, &mut self.forces);
         let (contacts, pool) = (&mut self.contacts, self.pool.as_ref());
-        self.contact_torques = match &mut self.leaning {
-            Some(leaning) => leaning.add_contacts(model, state, contacts, forces, pool),
+        self.contact_torques = match &mut self.tilted {
+            Some(tilted) => tilted.add_contacts(model, state, contacts, forces, pool),
             None => contacts.add_to(forces, model, &View::parallel(state), pool),
         };
     }
@@ -300,8 +300,8 @@ impl<'m> Dynamics<'m> {
     }
 
     fn apply(&mut self, t: f64, [first, last]: [&[&dyn Force]; 2]) {
-        let (rings, moments) = match &mut self.leaning {
-            Some(leaning) => leaning.rings_and_moments(),
+        let (rings, moments) = match &mut self.tilted {
+            Some(tilted) => tilted.rings_and_moments(),
             None => (None, None),
         };
         let at = Instant {

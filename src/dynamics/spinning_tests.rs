@@ -1,7 +1,7 @@
 //! Analytic: balls that spin about any axis conserve energy and momentum, lose the reported power, and in the plane equal those
 //! that spin about the axis alone.
 
-use super::leaning_tests::{free_rings, laws, momenta, stirred};
+use super::tilted_tests::{free_rings, laws, momenta, stirred};
 use super::{Dynamics, rhs};
 use crate::contact::attitude_rates;
 use crate::inspect;

@@ -12,7 +12,7 @@ const ANGLE: f64 = 0.05;
 /// Of a model and its start; `reduced` says whether turning is left out of the run.
 pub(super) fn notes(model: &Model, y0: &[f64], reduced: bool) -> Vec<String> {
     let mut found = Vec::new();
-    if model.leans() && !reduced {
+    if model.tilts() && !reduced {
         let note = "a ring may tilt: contacts are evaluated in the frames of their rings, and nothing is left out";
         found.push(note.to_owned());
     }
@@ -20,7 +20,7 @@ pub(super) fn notes(model: &Model, y0: &[f64], reduced: bool) -> Vec<String> {
         let note = "balls spin about any axis, each with two more states, and nothing is left out";
         found.push(note.to_owned());
     }
-    found.extend(held_parallel(model, y0).filter(|_| !model.leans()));
+    found.extend(held_parallel(model, y0).filter(|_| !model.tilts()));
     found.extend(pivoting(model, y0).filter(|_| !model.balls_turn()));
     found
 }

@@ -8,13 +8,13 @@ pub(crate) mod cage;
 pub(crate) mod drag;
 pub(crate) mod drive;
 pub(crate) mod gravity;
-pub(crate) mod leaning;
 pub(crate) mod load;
 pub(crate) mod outside;
 mod rates;
 mod state;
 mod sums;
 pub(crate) mod support;
+pub(crate) mod tilted;
 pub(crate) mod unbalance;
 
 use std::fmt::Debug;

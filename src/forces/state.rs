@@ -3,7 +3,7 @@
 // Everything here must be compiled for the instructions of its caller.
 #![allow(clippy::inline_always)]
 
-use crate::contact::{LeaningRing, Motion, V2};
+use crate::contact::{Motion, TiltedRing, V2};
 use crate::model::{BodyId, DOFS, Dof, Layout, Model, Race};
 use crate::simd::{LANES, Lanes};
 
@@ -217,8 +217,8 @@ impl State {
     }
 
     /// A ring that may tilt.
-    pub fn leaning(&self, model: &Model, race: Race) -> LeaningRing {
-        model.leaning_as(race, &self.motion(race.ring()), self.tilts[race])
+    pub fn tilted(&self, model: &Model, race: Race) -> TiltedRing {
+        model.tilted_as(race, &self.motion(race.ring()), self.tilts[race])
     }
 
     /// Tilt of a ring \[rad\] and its rates \[rad/s\].

@@ -5,7 +5,7 @@ use std::ops::Range;
 use nalgebra::Vector3;
 
 use super::{State, Table};
-use crate::contact::LeaningRing;
+use crate::contact::TiltedRing;
 use crate::model::{Race, Spring};
 use crate::tilt::Frame;
 
@@ -19,7 +19,7 @@ pub(crate) struct Instant<'a> {
     /// Supports of directions that move.
     pub springs: &'a [Spring],
     /// Rings that may tilt; none where they stay parallel.
-    pub rings: Option<[&'a LeaningRing; 2]>,
+    pub rings: Option<[&'a TiltedRing; 2]>,
 }
 
 impl Instant<'_> {

@@ -7,7 +7,7 @@
 // Everything in the loop must be compiled for the instructions of its caller.
 #![allow(clippy::inline_always)]
 
-use super::{Account, Damper, Force, ForceSums, Instant, State, Table, Use, leaning};
+use super::{Account, Damper, Force, ForceSums, Instant, State, Table, Use, tilted};
 use crate::model::{Body, BodyId, Degree, Dof, Model, Race, Spring};
 
 /// Springs and dampers of all bodies, of tilts too.
@@ -20,7 +20,7 @@ impl Force for Supports {
     }
 
     fn used(&self, model: &Model) -> Use {
-        Use::evaluated(!model.springs.is_empty() || leaning::holds(model))
+        Use::evaluated(!model.springs.is_empty() || tilted::holds(model))
     }
 
     fn add(&self, model: &Model, at: &Instant<'_>, sums: &mut ForceSums<'_>) {
@@ -32,14 +32,14 @@ impl Force for Supports {
             }
             // The spin's own mount turns the ring about its axis.
             let on_spin = std::mem::take(sums.on.get_mut(race.ring(), Dof::Theta));
-            let supported = leaning::support(model, race, at.state, rings[race], on_spin);
+            let supported = tilted::support(model, race, at.state, rings[race], on_spin);
             sums.add(race, &supported);
         }
     }
 
     fn account(&self, model: &Model, y: &[f64]) -> Account {
         let mut account = account(model, y);
-        account += leaning::account(model, y);
+        account += tilted::account(model, y);
         account
     }
 

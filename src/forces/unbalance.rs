@@ -48,7 +48,7 @@ impl Force for Unbalances {
     ) -> Option<RingWrench> {
         Some(match at.rings {
             None => on(model, at.t, at.state, race, others),
-            Some(_) => on_leaning(model, at.t, at.state, race, &at.frame(race)),
+            Some(_) => on_tilted(model, at.t, at.state, race, &at.frame(race)),
         })
     }
 
@@ -132,7 +132,7 @@ fn on(model: &Model, t: f64, state: &State, ring: Race, others: &[f64; DOFS]) ->
 
 /// The same for a ring that tilts, whose rotation is driven or held: the force of a ring that does not, turned with it, and its
 /// moment about the centre of mass.
-fn on_leaning(model: &Model, t: f64, state: &State, ring: Race, frame: &Frame) -> RingWrench {
+fn on_tilted(model: &Model, t: f64, state: &State, ring: Race, frame: &Frame) -> RingWrench {
     let mut sum = RingWrench::default();
     let motion = state.motion(ring.ring());
     let driven = drive::acceleration(model, ring, t);

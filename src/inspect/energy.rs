@@ -93,8 +93,8 @@ pub fn energy(model: &Model, y: &[f64]) -> Energy {
             energy.kinetic += 0.5 * body.mass[Dof::Theta] * (x * x + y * y);
         }
     }
-    if model.leans() {
-        energy.kinetic += leaning(model, y);
+    if model.tilts() {
+        energy.kinetic += of_tilt(model, y);
     }
     let mut account = Account::default();
     for force in forces::ALL {
@@ -120,11 +120,11 @@ pub fn energy(model: &Model, y: &[f64]) -> Energy {
 }
 
 /// What the rotations of rings that tilt have beside those about z \[J\].
-fn leaning(model: &Model, y: &[f64]) -> f64 {
+fn of_tilt(model: &Model, y: &[f64]) -> f64 {
     let of = |race: Race| {
         let inertia = &model.rings[race].inertia;
         let spin = y[model.layout().speed_at(race.ring(), Dof::Theta)];
-        let whole = model.leaning(y, race).rotation.kinetic_energy(inertia);
+        let whole = model.tilted(y, race).rotation.kinetic_energy(inertia);
         whole - 0.5 * inertia.polar * spin * spin
     };
     Race::BOTH.map(of).into_iter().sum()

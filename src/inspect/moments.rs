@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::contacts::{ContactSummary, Summary, visit};
-use crate::contact::{Aside, LeaningRing, Motion, OilTouch, Sink, Touch, Wrench, WrenchSum};
+use crate::contact::{Aside, Motion, OilTouch, Sink, TiltedRing, Touch, Wrench, WrenchSum};
 use crate::forces::load;
 use crate::model::{BodyId, Model, Race};
 
@@ -49,7 +49,7 @@ pub(crate) fn between(
     model: &Model,
     (j, race): (usize, Race),
     ball: &Motion,
-    ring: &LeaningRing,
+    ring: &TiltedRing,
 ) -> [Wrench; 2] {
     let compiled = &model.balls[j];
     let [at, standing] = ring.facing(ball);
@@ -64,7 +64,7 @@ pub(crate) fn between(
 pub(crate) struct MomentOnRing<'m> {
     model: &'m Model,
     race: Race,
-    ring: LeaningRing,
+    ring: TiltedRing,
     sum: Vector3<f64>,
 }
 
@@ -74,7 +74,7 @@ impl<'m> MomentOnRing<'m> {
         Self {
             model,
             race,
-            ring: model.leaning(y, race),
+            ring: model.tilted(y, race),
             sum: Vector3::zeros(),
         }
     }

@@ -84,7 +84,7 @@ pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
         balls,
         loads: loads(scene, &rings),
         moments: moments(scene),
-        leans: scene.leans(),
+        tilts: scene.tilts(),
         rings,
         unbalances,
         springs: springs(&bodies),

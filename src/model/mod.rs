@@ -60,7 +60,7 @@ pub struct Model {
     pub(crate) mobility: Vec<[f64; DOFS]>,
     pub(crate) rings: [RingModel; 2],
     /// Whether a ring is tilted or may tilt.
-    leans: bool,
+    tilts: bool,
     layout: Layout,
     /// Moments that act on the rings.
     pub(crate) moments: Vec<MomentModel>,

@@ -72,7 +72,7 @@ fn preload(row: &Row, race: Race) -> f64 {
 }
 
 /// Angle of the nominal normal out of a ball towards +z at a race \[rad\].
-fn lean(row: &Row, race: Race) -> f64 {
+fn inclination(row: &Row, race: Race) -> f64 {
     race.sigma() * f64::from(row.side) * row.contact_angle
 }
 
@@ -94,8 +94,8 @@ fn points(path: &str, row: &Row, race: Race, profile: &RaceProfile) -> Result<Ra
     let z: Vec<f64> = profile.z.iter().map(|z| z + shift).collect();
     let wider = sigma * row.clearance / 4.0;
     let r: Vec<f64> = profile.r.iter().map(|r| r + wider).collect();
-    let lean = lean(row, race);
-    let contour = Contour::new(sigma, Curve::through(&z, &r), radius, lean);
+    let inclination = inclination(row, race);
+    let contour = Contour::new(sigma, Curve::through(&z, &r), radius, inclination);
     let torus = contour.nominal().copied();
     let Some(torus) = torus.filter(|torus| torus.r > radius) else {
         return Err(Error::scene(
@@ -105,7 +105,7 @@ fn points(path: &str, row: &Row, race: Race, profile: &RaceProfile) -> Result<Ra
                 "a race that is concave, with a radius of curvature above the ball's, {}, where its normal is at contact_angle, \
                  {} rad",
                 length(radius),
-                number(lean)
+                number(inclination)
             ),
         ));
     };
@@ -125,7 +125,10 @@ fn points(path: &str, row: &Row, race: Race, profile: &RaceProfile) -> Result<Ra
             ),
         ));
     }
-    Ok(RaceGeometry::One(torus, Shape::points(contour, lean)))
+    Ok(RaceGeometry::One(
+        torus,
+        Shape::points(contour, inclination),
+    ))
 }
 
 /// A torus whose shoulders fall off with a radius: the groove goes over into an arc that leads to the land.
@@ -156,13 +159,13 @@ fn rounded(row: &Row, race: Race, torus: &Torus, edge: f64) -> RaceGeometry {
         (0..=OF_GROOVE).map(|k| at((centre, 0.0), r, low + (high - low) * share(k, OF_GROOVE)));
     let last = (1..=OF_EDGE).map(|k| arc(high, high * (1.0 - share(k, OF_EDGE))));
     let (z, radii): (Vec<f64>, Vec<f64>) = first.chain(groove).chain(last).unzip();
-    let (radius, lean) = (row.ball_diameter / 2.0, lean(row, race));
-    let contour = Contour::new(sigma, Curve::through(&z, &radii), radius, lean);
+    let (radius, inclination) = (row.ball_diameter / 2.0, inclination(row, race));
+    let contour = Contour::new(sigma, Curve::through(&z, &radii), radius, inclination);
     let [start, end] = contour.ends();
     let torus = Torus {
         lowest: start - centre,
         highest: end - centre,
         ..*torus
     };
-    RaceGeometry::One(torus, Shape::points(contour, lean))
+    RaceGeometry::One(torus, Shape::points(contour, inclination))
 }

@@ -4,7 +4,7 @@ use nalgebra::{Matrix6, Vector3};
 
 use super::given::GivenMotions;
 use super::{BodyId, Degree, Dof, Layout, Model, Race};
-use crate::contact::{LeaningRing, Motion};
+use crate::contact::{Motion, TiltedRing};
 use crate::scene::{self, CoupledSupport, Mount, Scene, Surface};
 use crate::tilt::{Inertia, Rotation};
 
@@ -80,19 +80,19 @@ pub fn layout_of(scene: &Scene) -> Layout {
 impl Model {
     /// Whether a ring may tilt, or is tilted from the start.
     #[inline]
-    pub(crate) fn leans(&self) -> bool {
-        self.leans
+    pub(crate) fn tilts(&self) -> bool {
+        self.tilts
     }
 
     /// The same of one ring.
-    pub(crate) fn ring_leans(&self, race: Race) -> bool {
+    pub(crate) fn ring_tilts(&self, race: Race) -> bool {
         let moves = |dof: &Dof| self.layout.has(race.ring(), *dof);
         Dof::TILTS.iter().any(moves) || self.rings[race].tilt != [0.0; 2]
     }
 
     /// Whether no moment turns a ring that stands parallel, and nothing acts on it but contacts, loads and the mounts of its centre.
     pub(crate) fn is_parallel_and_held(&self, race: Race) -> bool {
-        let turns = self.degree(race, Dof::Theta).is_free() || self.ring_leans(race);
+        let turns = self.degree(race, Dof::Theta).is_free() || self.ring_tilts(race);
         let carries = self.rings[race].coupled.is_some() || !self.scene.unbalances.is_empty();
         !turns && !carries
     }
@@ -115,7 +115,7 @@ impl Model {
     /// Whether anything turns about x or y: contacts are then evaluated in the frames of their rings.
     #[inline]
     pub(crate) fn is_spatial(&self) -> bool {
-        self.leans || self.balls_turn()
+        self.tilts || self.balls_turn()
     }
 
     /// Tilt of a ring \[rad\] and its rates \[rad/s\] in a state.
@@ -147,28 +147,28 @@ impl Model {
     }
 
     /// A ring that may tilt, in a state.
-    pub(crate) fn leaning(&self, y: &[f64], race: Race) -> LeaningRing {
+    pub(crate) fn tilted(&self, y: &[f64], race: Race) -> TiltedRing {
         let motion = self.layout.motion(y, race.ring());
-        self.leaning_as(race, &motion, self.tilt(y, race))
+        self.tilted_as(race, &motion, self.tilt(y, race))
     }
 
     /// The same from its motion, tilt and the tilt's rates.
-    pub(crate) fn leaning_as(
+    pub(crate) fn tilted_as(
         &self,
         race: Race,
         motion: &Motion,
         [tilt, rates]: [[f64; 2]; 2],
-    ) -> LeaningRing {
+    ) -> TiltedRing {
         let rotation = Rotation::new(tilt, rates, motion.omega);
         let offset = self.rings[race].centre_of_mass;
-        LeaningRing::new(motion, rotation, offset, self.balls_turn())
+        TiltedRing::new(motion, rotation, offset, self.balls_turn())
     }
 
     /// A ball and a ring in a state as their contact sees them: in the scene's frame, or in that of a ring that tilts.
     pub(crate) fn facing(&self, y: &[f64], ball: usize, race: Race) -> [Motion; 2] {
         let at = self.layout.motion(y, BodyId::ball(ball));
         if self.is_spatial() {
-            self.leaning(y, race).facing(&at)
+            self.tilted(y, race).facing(&at)
         } else {
             [at, self.layout.motion(y, race.ring())]
         }

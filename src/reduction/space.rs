@@ -43,7 +43,7 @@ fn against(model: &Model, start: &[f64], mirrored: bool) -> Vec<Obstacle> {
         let what = what.to_owned();
         found.extend(looked.err().map(|reason| Obstacle { what, reason }));
     };
-    if model.leans() {
+    if model.tilts() {
         let looked = symmetry::of_tilts(model, start, mirrored);
         look("rings that do not tilt", looked);
     }

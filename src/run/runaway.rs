@@ -78,7 +78,7 @@ impl Bounds {
         let (body, dof) = self.degrees[i % half];
         let does = match (i < half, dof.is_rotation()) {
             (true, true) if Dof::TILTS.contains(&dof) => {
-                format!("leans by {} rad ({})", number(y[i]), dof.name())
+                format!("tilts by {} rad ({})", number(y[i]), dof.name())
             }
             (true, true) => format!("has turned by {} rad", number(y[i])),
             (true, false) => format!(

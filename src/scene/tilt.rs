@@ -18,7 +18,7 @@ impl Support {
 
 impl Ring {
     /// Whether it has tilts: one from the start, a free or sprung one, or one that its support couples with other directions.
-    pub(crate) fn leans(&self) -> bool {
+    pub(crate) fn tilts(&self) -> bool {
         let support = &self.support;
         self.tilt.is_some_and(|tilt| tilt != [0.0; 2])
             || support.tilt_mounts() != [const { Mount::Fixed }; 2]
@@ -31,8 +31,8 @@ impl Scene {
     /// spins freely also those about x and y.
     pub(crate) fn components_of(&self, body: &str) -> Vec<Component> {
         let beside: &[Component] = match body {
-            "outer" if self.outer_ring.leans() => &Component::OF_TILTS,
-            "inner" if self.inner_ring.leans() => &Component::OF_TILTS,
+            "outer" if self.outer_ring.tilts() => &Component::OF_TILTS,
+            "inner" if self.inner_ring.tilts() => &Component::OF_TILTS,
             "outer" | "inner" => &[],
             _ if self.balls_turn() => &Component::OF_TURNS,
             _ => &[],
@@ -41,12 +41,12 @@ impl Scene {
     }
 
     /// Whether a ring may tilt. Where none does, rings have four directions and tilts do not occur.
-    pub(crate) fn leans(&self) -> bool {
-        self.outer_ring.leans() || self.inner_ring.leans()
+    pub(crate) fn tilts(&self) -> bool {
+        self.outer_ring.tilts() || self.inner_ring.tilts()
     }
 
     /// Refuses approximations where rings tilt or balls spin freely.
-    pub(super) fn check_leaning(&self) -> Result<()> {
+    pub(super) fn check_tilted(&self) -> Result<()> {
         let Approximations {
             rolling,
             plane,
@@ -56,7 +56,7 @@ impl Scene {
         let Some((name, _)) = asked.into_iter().find(|(_, asked)| *asked) else {
             return Ok(());
         };
-        let allowed = match (self.leans(), self.balls_turn()) {
+        let allowed = match (self.tilts(), self.balls_turn()) {
             (true, _) => "false where a ring may tilt: approximations assume parallel rings",
             (_, true) => {
                 "false where balls spin freely: approximations assume balls that spin about the bearing's axis"

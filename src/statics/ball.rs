@@ -136,7 +136,7 @@ impl Problem<'_> {
         let places = Race::BOTH.map(|race| {
             let ring = unknowns::of(rings, race);
             let place = Vector2::new(ring.xy().dot(&self.directions[j]), ring.z);
-            place + Vector2::from(self.leaned(j, rings, race))
+            place + Vector2::from(self.by_tilt(j, rings, race))
         });
         pairs.map(move |pair| Grooves::of(pair, places, ball.side.radius))
     }
@@ -262,10 +262,10 @@ impl Grooves {
             Vector2::new(torus.a + shift.x, torus.centre + shift.y)
         });
         let apart = centres[1] - centres[0];
-        let lean = apart.y / apart.norm();
+        let sine = apart.y / apart.norm();
         let meets = |race: Race| {
             let torus = &pair[race].race;
-            !pair[race].is_beyond_cusp(torus.centre + torus.sigma * lean * torus.r)
+            !pair[race].is_beyond_cusp(torus.centre + torus.sigma * sine * torus.r)
         };
         Self {
             centres,

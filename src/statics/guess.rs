@@ -62,8 +62,8 @@ impl Problem<'_> {
                 let plane = Matrix3::new(x * x, x * y, 0.0, x * y, y * y, 0.0, 0.0, 0.0, 1.0);
                 let own = unit * unit.transpose() * (slope - aside) + plane * aside;
                 tied += own;
-                if self.model.leans() {
-                    self.lean((j, rings), (&pressed, &own), (&mut forces, &mut stiffness));
+                if self.model.tilts() {
+                    self.add_tilt((j, rings), (&pressed, &own), (&mut forces, &mut stiffness));
                 }
             }
         }
@@ -84,7 +84,7 @@ impl Problem<'_> {
 
     /// Adds what a spring between the groove centres at a ball does to tilts, which carry the rings' points there along; its
     /// stiffness against places is there already.
-    fn lean(
+    fn add_tilt(
         &self,
         (j, rings): (usize, &Rings),
         (pressed, own): (&Vector3<f64>, &Matrix3<f64>),

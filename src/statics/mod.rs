@@ -21,7 +21,6 @@ mod distribution;
 mod fallen;
 mod guess;
 mod gyroscopic;
-mod leaning;
 mod loads;
 mod place;
 mod polish;
@@ -35,6 +34,7 @@ mod springs;
 pub(crate) mod start;
 pub(crate) mod steady;
 mod stiffness;
+mod tilted;
 mod unknowns;
 
 use serde::Serialize;

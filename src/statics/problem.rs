@@ -79,7 +79,7 @@ impl<'m> Problem<'m> {
             .map(|(at, ..)| at)
             .collect();
         magnitude += loads.iter().map(|x| x.abs()).sum::<f64>();
-        if model.leans() {
+        if model.tilts() {
             let of = |race: Race| load::moment(model, 0.0, race, |arm| *arm).norm();
             magnitude += (of(Race::Outer) + of(Race::Inner)) / model.radius(BodyId::INNER);
         }
@@ -109,7 +109,7 @@ impl<'m> Problem<'m> {
             pushes: Push::all(model),
             turning,
             placed: model.scene.forces_of_motion().next().is_some(),
-            spatial: model.leans(),
+            spatial: model.tilts(),
         }
     }
 
@@ -186,7 +186,7 @@ impl<'m> Problem<'m> {
         let contacts = Race::BOTH.map(|race| {
             let pair = &self.model.rows[ball.row].pairs[race];
             let mut found = pair.tangent(&ball.side, &from_rings[race]);
-            if self.model.leans() {
+            if self.model.tilts() {
                 found = found.turned(&self.frame(rings, race));
             }
             found.force += self.friction[j][race];
@@ -233,7 +233,7 @@ impl<'m> Problem<'m> {
             *state.contacts[race].stiffness.get_or_insert_with(|| {
                 let pair = &self.model.rows[ball.row].pairs[race];
                 let own = pair.stiffness_by_differences(&ball.side, &state.from_rings[race], step);
-                if self.model.leans() {
+                if self.model.tilts() {
                     self.frame(rings, race).matrix_to_scene(&own)
                 } else {
                     own

@@ -211,7 +211,7 @@ impl Problem<'_> {
 
     /// How far a ball is from a ring's axis, and where along it.
     fn before(&self, j: usize, rings: &Rings, race: Race, ball: &Vector2<f64>) -> [f64; 2] {
-        if self.model.leans() {
+        if self.model.tilts() {
             let n = self.directions[j] * ball.x;
             let seen = self.seen(rings, race, &nalgebra::Vector3::new(n.x, n.y, ball.y));
             return [seen.xy().norm(), seen.z];

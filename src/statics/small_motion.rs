@@ -16,7 +16,7 @@
 use nalgebra::{DMatrix, Matrix2x5, Matrix5, Matrix5x2, SMatrix, Vector3};
 
 use super::steady;
-use crate::contact::{LeaningRing, Motion, V2, Wrench, centrifugal};
+use crate::contact::{Motion, TiltedRing, V2, Wrench, centrifugal};
 use crate::inspect;
 use crate::model::{BodyId, Dof, Model, Race};
 
@@ -232,7 +232,7 @@ impl<'m> BallInPlace<'m> {
             let [outer, _] = self.rings;
             let ring = self
                 .model
-                .leaning_as(Race::Outer, &outer, self.tilts[Race::Outer]);
+                .tilted_as(Race::Outer, &outer, self.tilts[Race::Outer]);
             let [on_ball, _] = inspect::between(self.model, (self.j, Race::Outer), &ball, &ring);
             add(&on_ball);
         }
@@ -268,7 +268,7 @@ impl<'m> BallInPlace<'m> {
     }
 
     /// The inner ring with places and their rates moved.
-    fn inner(&self, by: &[f64; MOVED]) -> LeaningRing {
+    fn inner(&self, by: &[f64; MOVED]) -> TiltedRing {
         let ([_, at], [_, [tilt, rates]]) = (self.rings, self.tilts);
         let (place, rate) = (&by[RING..RING_RATES], &by[RING_RATES..]);
         let moved = Motion {
@@ -282,6 +282,6 @@ impl<'m> BallInPlace<'m> {
             [tilt[0] + place[3], tilt[1] + place[4]],
             [rates[0] + rate[3], rates[1] + rate[4]],
         ];
-        self.model.leaning_as(Race::Inner, &moved, tilts)
+        self.model.tilted_as(Race::Inner, &moved, tilts)
     }
 }

@@ -40,7 +40,7 @@ fn begin(model: &Model, start: &Start) -> Result<Vec<f64>> {
             for (place, body) in Layout::each_mut(&mut y).iter_mut().zip(&model.bodies) {
                 *place = body.nominal;
             }
-            lean(model, &mut y);
+            tilt(model, &mut y);
             rolling::nominally(model, &mut y);
             hold(model, &mut y);
             face(model, &mut y);
@@ -126,7 +126,7 @@ fn hold(model: &Model, y: &mut [f64]) {
 }
 
 /// Gives rings their nominal tilts.
-fn lean(model: &Model, y: &mut [f64]) {
+fn tilt(model: &Model, y: &mut [f64]) {
     let layout = model.layout();
     for race in Race::BOTH {
         for (dof, tilt) in Dof::TILTS.into_iter().zip(model.rings[race].tilt) {

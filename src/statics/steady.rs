@@ -50,7 +50,7 @@ pub(super) fn friction(model: &Model, y: &[f64], j: usize) -> [Wrench; 2] {
         if !model.is_spatial() {
             return sum.0;
         }
-        let ring = model.leaning(y, race);
+        let ring = model.tilted(y, race);
         sum.0.turned(|of| ring.rotation.frame.to_scene(of))
     })
 }

@@ -72,8 +72,8 @@ impl Rotation {
     /// The moment of generalised forces on τ_x, τ_y and θ \[N m\]: what does their work.
     pub fn moment_of(&self, [on_x, on_y, on_spin]: [f64; 3]) -> Vector3<f64> {
         let (axis, [x, y]) = (self.frame.axis(), self.frame.tilt);
-        let leaning = on_spin * self.frame.k;
-        let across = Vector3::new(on_y + leaning * x, leaning * y - on_x, 0.0);
+        let tilted = on_spin * self.frame.k;
+        let across = Vector3::new(on_y + tilted * x, tilted * y - on_x, 0.0);
         axis * on_spin + axis.cross(&across)
     }
 

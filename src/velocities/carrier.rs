@@ -53,8 +53,8 @@ impl<const N: usize> Carrier<N> {
         for (i, mobility) in mobility.iter().enumerate() {
             carrier.scale[(i, i)] = gamma_h * mobility;
         }
-        if let Some(ring) = view.leaning {
-            carrier.lean(model, race, ring, gamma_h);
+        if let Some(ring) = view.tilted {
+            carrier.tilt(model, race, ring, gamma_h);
         }
         carrier
     }
@@ -69,7 +69,7 @@ impl<const N: usize> Carrier<N> {
     }
 
     /// The same of a ring that may tilt.
-    fn lean(&mut self, model: &Model, race: Race, view: &RingView, gamma_h: f64) {
+    fn tilt(&mut self, model: &Model, race: Race, view: &RingView, gamma_h: f64) {
         let (ring, frame) = (&view.ring, view.frame());
         let turns = |rates: [f64; 3]| {
             let [spin, x, y] = rates;

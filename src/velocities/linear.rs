@@ -110,7 +110,7 @@ impl<'d, 'm> Damped<'d, 'm> {
     /// For steps up to a longest one \[s\].
     pub fn new(dynamics: &'d mut Dynamics<'m>, longest: f64) -> Self {
         let matrix = is_stiff(dynamics, longest).then(|| {
-            if dynamics.leans() {
+            if dynamics.tilts() {
                 BodyMatrix::<FREE>::boxed(dynamics)
             } else {
                 BodyMatrix::<AXIAL>::boxed(dynamics)
@@ -255,7 +255,7 @@ impl<const N: usize> BodyMatrix<N> {
             radial: radii.iter().map(Radial::new).collect(),
             full,
             state,
-            rings: RingView::both(model).filter(|_| dynamics.leans()),
+            rings: RingView::both(model).filter(|_| dynamics.tilts()),
             made: None,
             served: 0,
             relaxation: 0.0,

@@ -186,7 +186,7 @@ impl<const N: usize> Task for Factorise<'_, N> {
             ..
         } = self.work;
         arrow.begin();
-        let turns = Race::BOTH.map(|race| views[race].leaning.map(RingRotation::new));
+        let turns = Race::BOTH.map(|race| views[race].tilted.map(RingRotation::new));
         let turning = if model.balls_turn() { gamma_h } else { 0.0 };
         for (eight, batch) in batches[..*active].iter().enumerate() {
             let mut scale = [Lanes::ZERO; N];

@@ -117,8 +117,8 @@ mod tests {
     pub(super) fn spatial() -> Vec<Scene> {
         let all = || scenes().into_iter().chain([oiled_wheel(), rolling()]);
         let mut found: Vec<Scene> = all().map(|scene| spinning(&scene)).collect();
-        found.extend(all().map(|scene| leaning(&scene)));
-        found.extend(all().map(|scene| leaning(&spinning(&scene))));
+        found.extend(all().map(|scene| tilted(&scene)));
+        found.extend(all().map(|scene| tilted(&spinning(&scene))));
         found
     }
 
@@ -130,9 +130,9 @@ mod tests {
     }
 
     /// By so much that a matrix of parallel rings would be seen.
-    fn leaning(scene: &Scene) -> Scene {
+    fn tilted(scene: &Scene) -> Scene {
         let mut scene = scene.clone();
-        scene.name.push_str(" leaning");
+        scene.name.push_str(" tilted");
         let support = &mut scene.inner_ring.support;
         (support.tilt_x, support.tilt_y) = (Some(Mount::Free), Some(Mount::Free));
         scene.outer_ring.tilt = Some([0.004, -0.006]);

@@ -66,7 +66,7 @@ fn with_round(mut scene: Scene, race: Race, mut defect: Defect) -> Scene {
     scene
 }
 
-/// A state in which everything moves and the rings lean by 0.3 mrad.
+/// A state in which everything moves and the rings tilt by 0.3 mrad.
 fn stirred(model: &Model) -> Vec<f64> {
     let mut y = start(model, &Start::Rolling).unwrap();
     let names = model.names();
@@ -89,9 +89,9 @@ fn stirred(model: &Model) -> Vec<f64> {
 }
 
 /// Truth: the energy, differentiated along the motion. Without friction and damping nothing is lost, whether a cap is met outside or
-/// inside, by rings that lean.
+/// inside, by rings that tilt.
 #[test]
-fn a_cap_between_leaning_rings_keeps_energy() {
+fn a_cap_between_tilted_rings_keeps_energy() {
     for law in [NormalLaw::Hertz, NormalLaw::iso16281()] {
         for race in Race::BOTH {
             for (scene, least) in [

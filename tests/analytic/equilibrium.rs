@@ -30,14 +30,14 @@ fn ordinary_loads_are_carried() {
     }
 }
 
-/// Analytic: on the lowest ball alone a ring would topple; it leans on the next one, and both carry its weight.
+/// Analytic: on the lowest ball alone a ring would topple; it tilts on the next one, and both carry its weight.
 #[test]
-fn an_unloaded_ring_leans_on_two_balls() {
+fn an_unloaded_ring_tilts_on_two_balls() {
     let scene = presets::deep_groove_6205(0.0, 0.0, 1800.0);
     let found = equilibrium(&scene).unwrap();
     let [mut aside, mut up] = [0.0, 0.0];
     for ball in &found.balls {
-        // From the ring's centre: a micrometre aside matters for what leans.
+        // From the ring's centre: a micrometre aside matters for what tilts.
         let (sin, cos) = ball.angle.sin_cos();
         let x = ball.radius * cos - found.inner[0];
         let y = ball.radius * sin - found.inner[1];

@@ -177,9 +177,9 @@ fn a_ring_stays_on_its_course() {
         let course = sine(-2.5e-5, 3e-6, 300.0);
         scene.inner_ring.support.x = Some(Mount::given(0.0));
         scene.inner_ring.support.y = Some(Mount::given(course.clone()));
-        let lean = sine(1e-4, 2e-4, 170.0);
+        let tilt = sine(1e-4, 2e-4, 170.0);
         if tilts {
-            scene.inner_ring.support.tilt_x = Some(Mount::given(lean.clone()));
+            scene.inner_ring.support.tilt_x = Some(Mount::given(tilt.clone()));
         }
         let run = Run {
             duration: Run::OPEN,
@@ -196,8 +196,8 @@ fn a_ring_stays_on_its_course() {
             ("inner.vy", course.rate(t), 1e-8),
         ];
         if tilts {
-            checks.push(("inner.tilt_x", lean.at(t), 1e-12));
-            checks.push(("inner.tilt_vx", lean.rate(t), 1e-7));
+            checks.push(("inner.tilt_x", tilt.at(t), 1e-12));
+            checks.push(("inner.tilt_vx", tilt.rate(t), 1e-7));
         }
         for (name, truth, limit) in checks {
             let error = (at(name) - truth).abs();

@@ -188,7 +188,7 @@ fn furthest(of: &Equilibrium, value: impl Fn(&ballrace::BallEquilibrium) -> f64,
         .fold(0.0, f64::max)
 }
 
-/// Analytic: under thrust either way a four-point bearing is an angular-contact bearing of its shim angle, whose contacts lean
+/// Analytic: under thrust either way a four-point bearing is an angular-contact bearing of its shim angle, whose contacts incline
 /// at cos α = cos α_s − P_d/(2 A) when they bear little (T. A. Harris, Rolling Bearing Analysis, ch. 2).
 #[test]
 fn a_four_point_bearing_carries_thrust_both_ways() {
@@ -304,15 +304,15 @@ fn a_tabulated_arch_has_both_contacts() {
 }
 
 /// Force on ball 0 along x and z \[N\], held at a place before the outer ring alone.
-fn on_ball(scene: &Scene, model: &Model, depth: f64, lean: f64) -> [f64; 2] {
+fn on_ball(scene: &Scene, model: &Model, depth: f64, angle: f64) -> [f64; 2] {
     let mut y = vec![0.0; model.dim()];
     let row = &scene.rows[0];
     let r = row.outer_conformity * row.ball_diameter;
     let radius = row.ball_diameter / 2.0;
     let a = row.pitch_diameter / 2.0 - (r - radius) + row.clearance / 4.0;
     let l = r - radius + depth;
-    y[4 * 2] = a + l * lean.cos();
-    y[4 * 2 + 2] = l * lean.sin();
+    y[4 * 2] = a + l * angle.cos();
+    y[4 * 2 + 2] = l * angle.sin();
     // The other balls are far from both races.
     for ball in 1..row.ball_count {
         y[4 * (2 + ball)] = row.pitch_diameter / 2.0;
@@ -334,14 +334,14 @@ fn a_rounded_shoulder_lets_the_force_fade() {
     round.rows[0].outer_shoulder_radius = Some(0.2e-3);
     let depth = 10e-6;
     let both = [&sharp, &round].map(|scene| compile(scene).unwrap());
-    for lean in [0.0, 0.3, -0.3] {
+    for angle in [0.0, 0.3, -0.3] {
         let [a, b] = both
             .each_ref()
-            .map(|model| on_ball(&sharp, model, depth, lean));
+            .map(|model| on_ball(&sharp, model, depth, angle));
         let size = a[0].hypot(a[1]);
         let off = (a[0] - b[0]).hypot(a[1] - b[1]) / size;
-        println!("{lean}: {size:.1} N, off by {off:.1e}");
-        assert!(size > 10.0 && off < 1e-6, "{lean}: {off:e}");
+        println!("{angle}: {size:.1} N, off by {off:.1e}");
+        assert!(size > 10.0 && off < 1e-6, "{angle}: {off:e}");
     }
     // Slices that break off one after the other: largest bend of the force over the angle, per force.
     let bend = |scene: &mut Scene| {

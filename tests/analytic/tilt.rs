@@ -11,7 +11,7 @@ use ballrace::{Explanation, Reduction, Run, Start, Warning, compile, explain, si
 use common::{apart, oiled, run, short};
 
 /// A 6205 under 500 N and 300 N whose inner ring tilts, damped.
-fn leaning() -> Scene {
+fn tilted() -> Scene {
     let mut scene = presets::deep_groove_6205(500.0, 300.0, 1800.0);
     let tilts = Some(Mount::Spring {
         stiffness: 0.0,
@@ -56,7 +56,7 @@ fn other_documents_say_nothing_of_tilts() {
 /// What is said comes back, and can be changed by its path.
 #[test]
 fn what_is_said_of_tilts_comes_back() {
-    let mut scene = leaning();
+    let mut scene = tilted();
     let load = Load::new(RingName::Inner, [0.0, 1.0, 0.0], 100.0).at([0.0, -0.3, 0.02]);
     scene.loads.insert("wheel".to_owned(), load);
     let moment = Moment::new(RingName::Outer, [1.0, 0.0, 0.0], 2.0);
@@ -83,7 +83,7 @@ fn what_is_said_of_tilts_comes_back() {
 /// Tilts stand behind all bodies in each half of a state.
 #[test]
 fn tilts_have_states_where_they_move() {
-    let mut scene = leaning();
+    let mut scene = tilted();
     scene.inner_ring.support.tilt_y = None;
     let model = compile(&scene).unwrap();
     let names = model.names();
@@ -109,7 +109,7 @@ type Case = (&'static str, Box<dyn Fn(&mut Scene)>);
 #[test]
 fn what_cannot_tilt_is_refused_by_name() {
     let changed = |change: &dyn Fn(&mut Scene)| {
-        let mut scene = leaning();
+        let mut scene = tilted();
         change(&mut scene);
         scene
     };
@@ -195,7 +195,7 @@ fn what_cannot_tilt_is_refused_by_name() {
 fn a_run_tells_tilts() {
     let mut told = Vec::new();
     for method in [Method::DormandPrince, Method::Adams, Method::Verner] {
-        let mut scene = leaning();
+        let mut scene = tilted();
         scene.friction = Friction::None;
         scene.solver.method = method;
         let out = run(&scene, &rolling(4e-4));
@@ -213,7 +213,7 @@ fn a_run_tells_tilts() {
     }
 }
 
-/// Convergence: the default method follows a wheel that leans in a curve, dry and in oil, to the truth of a pair at a tight tolerance,
+/// Convergence: the default method follows a wheel that tilts in a curve, dry and in oil, to the truth of a pair at a tight tolerance,
 /// with a fifth of the evaluations that the pair takes for its own.
 #[test]
 fn the_default_method_follows_tilts() {
@@ -242,7 +242,7 @@ fn the_default_method_follows_tilts() {
     }
 }
 
-/// Truth: Dormand–Prince at a tight tolerance, of a wheel that leans in a curve with balls that spin freely. Steps of the default method
+/// Truth: Dormand–Prince at a tight tolerance, of a wheel that tilts in a curve with balls that spin freely. Steps of the default method
 /// do not depend on how stiff friction is.
 #[test]
 fn stiff_friction_in_space_costs_the_default_method_nothing() {
@@ -312,7 +312,7 @@ fn tilts_that_never_move_are_left_out() {
     images.rows[1].start_angle += 1e-3;
     let told = explain(&images).unwrap();
     assert_eq!(told.kept, told.states);
-    let mut scene = leaning();
+    let mut scene = tilted();
     scene.loads.remove("axial");
     let parallel = parallel(&scene);
     assert_eq!(rates(&scene), rates(&parallel));
@@ -375,10 +375,10 @@ fn tilts_that_never_move_are_left_out() {
     }
 }
 
-/// A ring mounted crooked leans as long as it is held so; loads along a drive's axis tilt nothing.
+/// A ring mounted crooked tilts as long as it is held so; loads along a drive's axis tilt nothing.
 #[test]
 fn a_crooked_ring_stays_crooked() {
-    let mut scene = leaning();
+    let mut scene = tilted();
     scene.inner_ring.tilt = Some([1e-3, 0.0]);
     let support = &mut scene.inner_ring.support;
     (support.tilt_x, support.tilt_y) = (None, None);
@@ -397,7 +397,7 @@ fn a_crooked_ring_stays_crooked() {
 /// Oil lies in contacts of rings that tilt: all of its powers are lost.
 #[test]
 fn oil_lies_in_contacts_of_rings_that_tilt() {
-    let mut scene = leaning();
+    let mut scene = tilted();
     let mut oil = Lubricant::named("vg68", 328.15);
     oil.reference_load = Some(200.0);
     scene.lubricant = Some(oil);
@@ -409,9 +409,9 @@ fn oil_lies_in_contacts_of_rings_that_tilt() {
     }
 }
 
-/// A ring that leans by more than 3° is told, at equilibrium and by a run; one of any bearing in use is not.
+/// A ring that tilts by more than 3° is told, at equilibrium and by a run; one of any bearing in use is not.
 #[test]
-fn rings_that_lean_far_are_doubted() {
+fn rings_that_tilt_far_are_doubted() {
     let doubts = |scene: &Scene| {
         let still = ballrace::equilibrium(scene).unwrap().doubts;
         let out = run(scene, &short(1e-5));
@@ -432,7 +432,7 @@ fn rings_that_lean_far_are_doubted() {
                 .count()
         })
     };
-    let mut scene = leaning();
+    let mut scene = tilted();
     scene.friction = Friction::None;
     assert_eq!(doubts(&scene), [0, 0]);
     (scene.rows[0].clearance, scene.rows[0].ball_diameter) = (0.8e-3, 10e-3);

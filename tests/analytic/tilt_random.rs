@@ -149,7 +149,7 @@ fn random_bearings_find_their_balance_or_say_why_not() {
                     scene.to_toml()
                 );
             }
-            // One row that leans one way lifts off where the moment outweighs its thrust.
+            // One row that tilts one way lifts off where the moment outweighs its thrust.
             Err(Error::Equilibrium { reason }) => {
                 println!("scene {k}: {reason}");
                 let row = &scene.rows[0];

@@ -27,7 +27,7 @@ fn difference(scene: &Scene, instructions: InstructionSet) -> f64 {
 }
 
 /// The same with rings that tilt, but for moments on them.
-fn difference_leaning(scene: &Scene, instructions: InstructionSet) -> f64 {
+fn difference_tilted(scene: &Scene, instructions: InstructionSet) -> f64 {
     let parallel = compile(scene).unwrap();
     let calm = start(&parallel, &Start::Equilibrium).unwrap();
     let mut scene = scene.clone();
@@ -43,9 +43,9 @@ fn difference_leaning(scene: &Scene, instructions: InstructionSet) -> f64 {
     scene
         .defects
         .retain(|_, defect| defect.shape.is_none() || defect.ball.is_none());
-    let leaning = compile(&scene).unwrap().with_instructions(instructions);
+    let tilted = compile(&scene).unwrap().with_instructions(instructions);
     let (places, speeds) = calm.split_at(calm.len() / 2);
-    difference_around(&leaning, &[places, &[0.0; 4], speeds, &[0.0; 4]].concat())
+    difference_around(&tilted, &[places, &[0.0; 4], speeds, &[0.0; 4]].concat())
 }
 
 fn difference_around(model: &Model, calm: &[f64]) -> f64 {
@@ -73,8 +73,8 @@ fn difference_around(model: &Model, calm: &[f64]) -> f64 {
             } else {
                 balls[b - 2].iter().sum()
             };
-            let leans = half > bodies;
-            for i in 0..if leans && b < 2 { 3 } else { 4 } {
+            let tilts = half > bodies;
+            for i in 0..if tilts && b < 2 { 3 } else { 4 } {
                 let sum: f64 = parts.iter().map(|(_, part)| part[4 * b + i]).sum();
                 let lever = if i < 3 { 1.0 } else { 6e-3 };
                 worst = worst.max((sum - force[i]).abs() / (lever * (size + 1e3)));
@@ -229,10 +229,10 @@ fn eights_and_ones_agree_at_every_level() {
 
 /// Analytic: the same in the frames of rings that tilt.
 #[test]
-fn eights_and_ones_agree_where_rings_lean() {
+fn eights_and_ones_agree_where_rings_tilt() {
     for (name, scene) in scenes() {
         for instructions in InstructionSet::available() {
-            let worst = difference_leaning(&scene, instructions);
+            let worst = difference_tilted(&scene, instructions);
             println!("{name}, {instructions}: {worst:.1e}");
             assert!(worst < 1e-12, "{name}, {instructions}: {worst:.1e}");
         }

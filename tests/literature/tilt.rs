@@ -89,7 +89,7 @@ fn masta_combined_with_a_free_tilt() {
 
 /// Truth: computed. Parallel rings hide a moment; free, the heaviest ball carries a third more.
 #[test]
-fn a_6205_under_combined_load_leans() {
+fn a_6205_under_combined_load_tilts() {
     let found = equilibrium(&combined()).unwrap();
     let [tilt, aside] = found.inner_tilt;
     meets("6205 free, tilt, mrad (computed)", 2.239, 1e3 * tilt, 3e-3);
@@ -269,10 +269,10 @@ fn a_tilt_that_nothing_holds_is_named() {
     assert!(told.contains("nothing holds inner.tilt_y"), "{told}");
 }
 
-/// Truth: the balance of moments. The side force of a cornering wheel acts at its tyre, and the wheel's ring leans by it; at the
+/// Truth: the balance of moments. The side force of a cornering wheel acts at its tyre, and the wheel's ring tilts by it; at the
 /// bearing's centre the same forces hardly tilt it.
 #[test]
-fn a_cornering_wheel_leans() {
+fn a_cornering_wheel_tilts() {
     for (lateral, least) in [(0.3, 2e-3), (0.6, 4e-3)] {
         let at_tyre = presets::cornering_wheel(lateral);
         let mut centred = at_tyre.clone();
@@ -295,7 +295,7 @@ fn a_cornering_wheel_leans() {
     }
 }
 
-/// Truth: the equilibrium. A run begins there, leaning, and stays.
+/// Truth: the equilibrium. A run begins there, tilted, and stays.
 /// Analytic: the moment of the overhung load is what the pair carries, and lines of contact that part bear it on the longer lever.
 #[test]
 fn a_pair_back_to_back_is_stiffer_than_face_to_face() {
@@ -320,7 +320,7 @@ fn a_pair_back_to_back_is_stiffer_than_face_to_face() {
 }
 
 #[test]
-fn a_run_begins_leaning() {
+fn a_run_begins_tilted() {
     let mut scene = combined();
     let damped = |damping| {
         Some(Mount::Spring {

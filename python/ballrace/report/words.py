@@ -128,12 +128,12 @@ def absent(scene: Scene) -> list[str]:
     """Return what a scene could hold and does not."""
     rings = (scene.outer_ring, scene.inner_ring)
     tilts = [mount for ring in rings for mount in (ring.support.tilt_x, ring.support.tilt_y)]
-    leans = any(mount not in (None, "fixed") for mount in tilts) or any(
+    may_tilt = any(mount not in (None, "fixed") for mount in tilts) or any(
         ring.tilt is not None or ring.support.coupled is not None for ring in rings
     )
     oiled = scene.lubricant is not None or any(row.lubricant is not None for row in scene.rows)
     held = {
-        "rings that tilt": leans,
+        "rings that tilt": may_tilt,
         "oil in the contacts": oiled,
         "balls that spin about any axis": scene.spin == "free",
     }

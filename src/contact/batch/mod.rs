@@ -8,9 +8,9 @@
 #![allow(clippy::inline_always)]
 
 mod gather;
-mod leaning;
 mod points;
 mod rubbing;
+mod tilted;
 
 pub(crate) use gather::{Across, Constants, EightContacts, Places, RingLanes};
 pub(crate) use rubbing::Rubbing;
@@ -49,7 +49,7 @@ pub(super) struct Place {
     pub d: Lanes,
     /// Slope of the waves along the race, R'(φ)/d, if there are any: the force along t_e over that along n_e (see
     /// `gradient`).
-    pub lean: Option<Lanes>,
+    pub wave_slope: Option<Lanes>,
     /// Moment about the balls that the slope of their texture makes of the elastic force in the plane \[m\], if they have one.
     pub turn: Option<Lanes>,
     /// Contacts whose nodes are these; the others get none that press.
@@ -152,7 +152,7 @@ impl Pair {
             arm: raised - d,
             oil: FilmEffect::of(eight.film.as_ref(), whole.half),
         };
-        let lean = eight.wavy.then(|| eight.raise.slope * over);
+        let wave_slope = eight.wavy.then(|| eight.raise.slope * over);
         let turn = match &eight.swell {
             Some(swell) if is_flat => Some(swell.slope / whole.section.normal.0),
             Some(swell) => Some(swell.slope),
@@ -164,7 +164,7 @@ impl Pair {
             Place {
                 n,
                 d,
-                lean,
+                wave_slope,
                 turn,
                 regular,
             },
@@ -235,8 +235,8 @@ impl<'a> Sums<'a> {
     fn on_bodies(&self, place: &Place) -> BatchForces {
         let (sigma, n) = (self.sigma, place.n);
         let mut tangential = self.tangential;
-        if let Some(lean) = place.lean {
-            tangential += self.elastic * lean;
+        if let Some(wave_slope) = place.wave_slope {
+            tangential += self.elastic * wave_slope;
         }
         let (along, mut across) = (self.normal * sigma, tangential * sigma);
         let mut moment = self.moment * sigma;

@@ -6,7 +6,7 @@
 // Everything here must be compiled for the instructions of its caller.
 #![allow(clippy::inline_always)]
 
-use super::leaning::SpatialSums;
+use super::tilted::SpatialSums;
 use super::{Across, BatchForces, EightContacts, Moves, Place, Rubbing, Sums};
 use crate::contact::kernel::{Element, Receiver, Whole};
 use crate::contact::laws::elastic::{ElasticLaw, ForLaw};
@@ -63,9 +63,9 @@ impl Pair {
         sums.on_bodies(&place)
     }
 
-    /// The same in the frame of a ring that may tilt; see [`Pair::forces_leaning`].
+    /// The same in the frame of a ring that may tilt; see [`Pair::forces_tilted`].
     #[inline(always)]
-    pub(crate) fn forces_on_curve_leaning<const FMA: bool>(
+    pub(crate) fn forces_on_curve_tilted<const FMA: bool>(
         &self,
         (eight, turning): (&EightContacts, Across),
         ring: &Motion,
@@ -128,7 +128,7 @@ impl Pair {
         let place = Place {
             n,
             d,
-            lean: eight.wavy.then(|| eight.raise.slope * over),
+            wave_slope: eight.wavy.then(|| eight.raise.slope * over),
             // Textures are of balls in plain grooves.
             turn: None,
             regular: found.regular.or(found.touching.not()),

@@ -38,7 +38,7 @@ impl Rubbing {
 
     /// The same, with angular velocities along n_e and t_e where balls before a ring that may tilt have some \[rad/s\].
     #[inline(always)]
-    pub(in crate::contact) fn at_nodes_turning<const FMA: bool, const LEAN: bool>(
+    pub(in crate::contact) fn at_nodes_turning<const FMA: bool, const TILTED: bool>(
         &mut self,
         instructions: InstructionSet,
         (pair, sigma): (&Pair, Lanes),
@@ -51,7 +51,7 @@ impl Rubbing {
         };
         let halves = rules.halves()?;
         let mut slip = Slip::along::<FMA>(&pair.law, sigma, &whole.section, moves)?;
-        if LEAN {
+        if TILTED {
             slip = slip.turning_across::<FMA>(&pair.law, &whole.section, turning);
         }
         if let Some(middle) = middle {

@@ -254,7 +254,7 @@ impl Contour {
 
 /// The torus of the circle of curvature where a race's normal is inclined by an angle from the plane towards +z.
 fn nominal(curve: &Curve, sigma: f64, radius: f64, angle: f64) -> Option<Torus> {
-    let z = leaning(curve, sigma, angle)?;
+    let z = inclined(curve, sigma, angle)?;
     let hollow = curve.smoothed(z, SMOOTH * radius).hollow(sigma);
     if hollow <= 0.0 {
         return None;
@@ -274,7 +274,7 @@ fn nominal(curve: &Curve, sigma: f64, radius: f64, angle: f64) -> Option<Torus> 
 }
 
 /// Where a race's normal is inclined by an angle, as near to its bottom as possible.
-fn leaning(curve: &Curve, sigma: f64, angle: f64) -> Option<f64> {
+fn inclined(curve: &Curve, sigma: f64, angle: f64) -> Option<f64> {
     let slope = -sigma * angle.tan();
     let off = |z: f64| curve.at(z).slope - slope;
     let brackets = curve.knots().windows(2).filter(|z| {

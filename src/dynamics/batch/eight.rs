@@ -272,9 +272,9 @@ pub(super) fn leave(groups: &[Group], singles: &mut Vec<Single>) {
 }
 
 /// Evaluates a group on a race that is a hollow curve.
-struct EightOnCurve<'a, const LEAN: bool>(Eight<'a, LEAN>, &'a Contour);
+struct EightOnCurve<'a, const TILTED: bool>(Eight<'a, TILTED>, &'a Contour);
 
-impl<const LEAN: bool> Task for EightOnCurve<'_, LEAN> {
+impl<const TILTED: bool> Task for EightOnCurve<'_, TILTED> {
     type Output = ();
 
     // Compiled for the instruction set that runs it.
@@ -289,10 +289,10 @@ impl<const LEAN: bool> Task for EightOnCurve<'_, LEAN> {
         let race = group.race(0);
         let (pair, view) = (&model.rows[group.class].pairs[race], &of.views[race]);
         let rubbing = (model.instructions, &mut group.rubbing);
-        if LEAN {
+        if TILTED {
             let held = (&eight, group.turning);
             (group.forces, group.across) =
-                pair.forces_on_curve_leaning::<FMA>(held, &view.ring, contour, rubbing);
+                pair.forces_on_curve_tilted::<FMA>(held, &view.ring, contour, rubbing);
         } else {
             group.forces = pair.forces_on_curve::<FMA>(&eight, &view.ring, contour, rubbing);
         }
@@ -309,16 +309,16 @@ pub(super) struct EvaluateEight<'a> {
 }
 
 impl EvaluateEight<'_> {
-    /// One of them, as `LEAN` says before a ring that may tilt.
-    pub fn run<const LEAN: bool>(&self, group: &mut Group) {
+    /// One of them, as `TILTED` says before a ring that may tilt.
+    pub fn run<const TILTED: bool>(&self, group: &mut Group) {
         let curve = self.model.rows[group.class].pairs[group.race(0)].hollow_curve();
         let (instructions, of) = (self.model.instructions, self);
         match curve {
             // Rings that tilt have no symmetry.
             None if self.symmetric => instructions.run(SymmetricEight(Eight { group, of })),
-            None => instructions.run(Eight::<LEAN> { group, of }),
+            None => instructions.run(Eight::<TILTED> { group, of }),
             Some(contour) => {
-                let eight = Eight::<LEAN> { group, of };
+                let eight = Eight::<TILTED> { group, of };
                 instructions.run(EightOnCurve(eight, contour));
             }
         }
@@ -326,7 +326,7 @@ impl EvaluateEight<'_> {
 }
 
 /// A group and what evaluates it.
-struct Eight<'a, const LEAN: bool> {
+struct Eight<'a, const TILTED: bool> {
     group: &'a mut Group,
     of: &'a EvaluateEight<'a>,
 }
@@ -359,7 +359,7 @@ impl Task for ToScene<'_> {
     }
 }
 
-impl<const LEAN: bool> Eight<'_, LEAN> {
+impl<const TILTED: bool> Eight<'_, TILTED> {
     /// What is gathered of the contacts.
     // Compiled for the instruction set that runs it.
     #[allow(clippy::inline_always)]
@@ -397,14 +397,14 @@ impl<const LEAN: bool> Eight<'_, LEAN> {
     }
 }
 
-impl<const LEAN: bool> Task for Eight<'_, LEAN> {
+impl<const TILTED: bool> Task for Eight<'_, TILTED> {
     type Output = ();
 
     // Compiled for the instruction set that runs it.
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn run<const FMA: bool>(self) {
-        if !LEAN {
+        if !TILTED {
             self.parallel::<FMA, false>();
             return;
         }
@@ -416,7 +416,7 @@ impl<const LEAN: bool> Task for Eight<'_, LEAN> {
         let rubbing = (of.model.instructions, &mut group.rubbing);
         let held = (&eight, group.turning);
         (group.forces, group.across) =
-            pair.forces_leaning::<FMA>(held, &of.views[race].ring, rubbing);
+            pair.forces_tilted::<FMA>(held, &of.views[race].ring, rubbing);
     }
 }
 

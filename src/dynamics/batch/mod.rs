@@ -189,7 +189,7 @@ impl Batch {
     }
 
     /// The same for rings that may tilt, on which forces are returned and moments about the origins of their frames, both in these.
-    pub fn add_leaning(
+    pub fn add_tilted(
         &mut self,
         forces: &mut Table,
         model: &Model,
@@ -229,7 +229,7 @@ impl Batch {
         };
         let eight = |group: &mut Group| {
             let view = &views[group.race(0)];
-            let Some(ring) = view.leaning else {
+            let Some(ring) = view.tilted else {
                 all.run::<false>(group);
                 return;
             };
@@ -298,7 +298,7 @@ impl Batch {
     /// What touches, by eights: contacts with both rings side by side where the equations allow it.
     fn gather(&mut self, views: &[View<'_>; 2]) {
         self.active = 0;
-        let parallel = views.iter().all(|view| view.leaning.is_none());
+        let parallel = views.iter().all(|view| view.tilted.is_none());
         for (class, [outer, inner]) in self.touching.iter().enumerate() {
             let mut next = |contacts: [&[Touching]; 2]| {
                 self.groups[self.active].take(class, contacts);
@@ -360,7 +360,7 @@ impl Batch {
     fn moments_across(&self, views: &[View<'_>; 2]) -> [[f64; 2]; 2] {
         let mut rings = [[0.0; 2]; 2];
         let groups = self.groups[..self.active].iter();
-        for group in groups.filter(|group| views[group.race(0)].leaning.is_some()) {
+        for group in groups.filter(|group| views[group.race(0)].tilted.is_some()) {
             let (sum, [_, [x, y]]) = (&mut rings[group.race(0)], &group.across);
             for lane in 0..group.count {
                 super::add(sum, &[x[lane], y[lane]]);

@@ -36,7 +36,7 @@ impl Single {
         let mut sum = WrenchSum::default();
         pair.evaluate_into(&ball.side, &motion, &view.ring, &mut sum);
         let place = motion.seen_from(&view.ring).place();
-        [self.on_ball, self.on_ring] = sum.on_bodies(&place, view.leaning.map(|of| &of.ring));
+        [self.on_ball, self.on_ring] = sum.on_bodies(&place, view.tilted.map(|of| &of.ring));
         (self.pulls, self.truncated) = (sum.pulls, sum.truncated);
     }
 }

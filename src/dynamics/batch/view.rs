@@ -1,6 +1,6 @@
 //! Positions and velocities of balls in the frame in which their contacts with one ring are evaluated.
 
-use crate::contact::{Across, LeaningRing, Motion};
+use crate::contact::{Across, Motion, TiltedRing};
 use crate::forces::{State, Table};
 use crate::model::{BodyId, DOFS, Model, Race};
 use crate::simd::{LANES, Lanes, Task};
@@ -15,7 +15,7 @@ pub(crate) struct View<'a> {
     state: &'a State,
     pub ring: Motion,
     /// None where rings stand parallel.
-    pub leaning: Option<&'a RingView>,
+    pub tilted: Option<&'a RingView>,
 }
 
 impl<'a> View<'a> {
@@ -31,14 +31,14 @@ impl<'a> View<'a> {
             v: &state.v,
             state,
             ring: state.motion(race.ring()),
-            leaning: None,
+            tilted: None,
         }
     }
 
     /// Angular velocity of a ball across the ring's axis, along x and y \[rad/s\].
     #[inline]
     pub fn across(&self, ball: BodyId) -> [f64; 2] {
-        self.leaning.map_or([0.0; 2], |of| {
+        self.tilted.map_or([0.0; 2], |of| {
             [of.across[0][ball.index()], of.across[1][ball.index()]]
         })
     }
@@ -46,7 +46,7 @@ impl<'a> View<'a> {
     /// The same of eight balls.
     pub fn turning(&self, balls: impl Iterator<Item = usize>) -> Across {
         let mut turning = [Lanes::ZERO; 2];
-        if let Some(of) = self.leaning {
+        if let Some(of) = self.tilted {
             for (lane, ball) in balls.enumerate() {
                 let body = BodyId::ball(ball).index();
                 turning[0][lane] = of.across[0][body];
@@ -59,9 +59,9 @@ impl<'a> View<'a> {
     /// A ball.
     pub fn ball(&self, ball: usize) -> Motion {
         let motion = self.state.motion(BodyId::ball(ball));
-        match self.leaning {
+        match self.tilted {
             None => motion,
-            Some(leaning) => leaning.ring.facing(&motion)[0],
+            Some(tilted) => tilted.ring.facing(&motion)[0],
         }
     }
 }
@@ -71,9 +71,9 @@ impl<'a> View<'a> {
 pub(crate) struct RingView {
     race: Race,
     /// Whether balls are turned into its frame: not before a ring that stays parallel, if they spin about the axis.
-    leans: bool,
+    tilts: bool,
     /// As it stood at the start, where it stays parallel: of that only the frame is read.
-    pub ring: LeaningRing,
+    pub ring: TiltedRing,
     q: Table,
     /// The rings' own are 0.
     v: Table,
@@ -87,8 +87,8 @@ impl RingView {
         let (bodies, state) = (model.bodies.len(), State::new(model));
         let of = |race| Self {
             race,
-            leans: model.balls_turn() || model.ring_leans(race),
-            ring: state.leaning(model, race),
+            tilts: model.balls_turn() || model.ring_tilts(race),
+            ring: state.tilted(model, race),
             q: Table::zeros(bodies),
             v: Table::zeros(bodies),
             across: [(); 2].map(|()| vec![0.0; bodies + LANES]),
@@ -98,8 +98,8 @@ impl RingView {
 
     /// Turns all balls of a state into the frames of both rings.
     pub fn look<'a>(both: &'a mut [Self; 2], model: &Model, state: &'a State) -> [View<'a>; 2] {
-        for view in both.iter_mut().filter(|view| view.leans) {
-            view.ring = state.leaning(model, view.race);
+        for view in both.iter_mut().filter(|view| view.tilts) {
+            view.ring = state.tilted(model, view.race);
         }
         model.instructions.run(Look { both, state });
         both.each_ref().map(|ring| ring.view(state))
@@ -107,7 +107,7 @@ impl RingView {
 
     /// What contacts see.
     pub fn view<'a>(&'a self, state: &'a State) -> View<'a> {
-        if !self.leans {
+        if !self.tilts {
             return View::of_parallel(state, self.race);
         }
         View {
@@ -115,7 +115,7 @@ impl RingView {
             v: &self.v,
             state,
             ring: self.ring.standing(),
-            leaning: Some(self),
+            tilted: Some(self),
         }
     }
 
@@ -143,7 +143,7 @@ impl Task for Look<'_> {
     #[allow(clippy::inline_always)]
     #[inline(always)]
     fn run<const FMA: bool>(self) {
-        for view in self.both.iter_mut().filter(|view| view.leans) {
+        for view in self.both.iter_mut().filter(|view| view.tilts) {
             view.turn::<FMA>(self.state);
         }
     }

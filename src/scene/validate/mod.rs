@@ -56,7 +56,7 @@ impl Scene {
         }
         load::loads(self)?;
         tilt::loads(self)?;
-        self.check_leaning()?;
+        self.check_tilted()?;
         for (name, defect) in &self.defects {
             entry_name("defects", name)?;
             defect::defect(self, &format!("defects.{name}"), defect)?;

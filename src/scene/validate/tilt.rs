@@ -155,7 +155,7 @@ pub(super) fn loads(scene: &Scene) -> Result<()> {
                 scene.given_speed(RingName::Inner).is_none(),
             ),
         };
-        if ring.leans() && turns {
+        if ring.tilts() && turns {
             let allowed = "a ring whose rotation is driven or held, where that ring may tilt";
             return Err(Error::scene(
                 format!("{path}.ring"),

@@ -1,7 +1,7 @@
 //! Fault circles of ring and ball against whatever stands opposite (model section 7).
 
 use super::depth::Depth;
-use super::elements::{FeatureShape, Lean, RingElement};
+use super::elements::{FeatureShape, RingElement, WaveSlope};
 use crate::contact::defect::Edge;
 use crate::contact::defect::WITH_RING_AXIS;
 use crate::contact::profile::Raise;
@@ -46,7 +46,7 @@ impl OneContact<'_> {
             ),
             drops: (D::new(0.0, 0.0, 0.0), D::NEVER),
             arm_ring: from_ring - n_e * edge.radius,
-            lean: Lean::default(),
+            wave_slope: WaveSlope::default(),
             swing: WITH_RING_AXIS,
         }
     }
@@ -70,7 +70,7 @@ impl OneContact<'_> {
             FeatureShape::Race => self.circle_on_race(node, feature, edge, arm),
             FeatureShape::Circle { .. } => self.circle_on_circle(feature, edge, arm),
         };
-        let tan = met.lean.force.dot(&slope) - met.n_e.dot(&slope);
+        let tan = met.wave_slope.force.dot(&slope) - met.n_e.dot(&slope);
         met.s = met.s.along_ball(-tan);
         met.swing = edge.swing();
         (met, tan)
@@ -103,7 +103,7 @@ impl OneContact<'_> {
                 0.0,
             ),
             arm_ring: m * radius,
-            lean: self.lean(m, distance, raise.slope, arm),
+            wave_slope: self.wave_slope(m, distance, raise.slope, arm),
             ..*feature
         }
     }

@@ -36,7 +36,7 @@ pub(super) enum FeatureShape {
 
 /// The tangential force that the slope of the waves adds, over the force along n_e, and its arm from the ball's centre.
 #[derive(Clone, Copy, Default)]
-pub(super) struct Lean {
+pub(super) struct WaveSlope {
     pub(super) force: V2,
     pub(super) arm: V2,
 }
@@ -51,7 +51,7 @@ pub(super) struct RingElement<D> {
     pub(super) s: D,
     pub(super) drops: (D, D),
     pub(super) arm_ring: V2,
-    pub(super) lean: Lean,
+    pub(super) wave_slope: WaveSlope,
     /// How rotations of the ball move it along its slice (see `cap`).
     pub(super) swing: Vector3<f64>,
 }
@@ -195,7 +195,7 @@ impl OneContact<'_> {
             ),
             drops: (D::new(0.0, 0.0, 0.0), D::NEVER),
             arm_ring: self.n * (node.torus_radius + self.raise.height),
-            lean: self.lean(self.n, self.distance, self.raise.slope, V2::zeros()),
+            wave_slope: self.wave_slope(self.n, self.distance, self.raise.slope, V2::zeros()),
             swing: WITH_RING_AXIS,
         }
     }
@@ -210,12 +210,12 @@ impl OneContact<'_> {
     }
 
     /// What the waves' slope does in a direction and at a distance from the ring's centre.
-    pub(super) fn lean(&self, n: V2, distance: f64, slope: f64, arm: V2) -> Lean {
+    pub(super) fn wave_slope(&self, n: V2, distance: f64, slope: f64, arm: V2) -> WaveSlope {
         if self.pair.waves.is_round() {
-            return Lean::default();
+            return WaveSlope::default();
         }
         let force = turned(n) * (self.race.sigma * slope / distance);
-        Lean { force, arm }
+        WaveSlope { force, arm }
     }
 
     /// Slope of the race's radius along z.

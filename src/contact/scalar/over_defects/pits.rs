@@ -95,8 +95,8 @@ impl OneContact<'_> {
             return None;
         }
         let (cos, sin) = self.section.normal;
-        let lean = ((fault.middle - self.race.centre) / self.race.r).asin();
-        let at = [self.race.r * (lean - sin.atan2(cos)), pit.radius * aside];
+        let angle = ((fault.middle - self.race.centre) / self.race.r).asin();
+        let at = [self.race.r * (angle - sin.atan2(cos)), pit.radius * aside];
         let body = PitBody::Race { radius: pit.radius };
         Some((pit, PitPlace { at, body }))
     }

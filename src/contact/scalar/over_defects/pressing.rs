@@ -1,7 +1,7 @@
 //! The forces of a slice: of every element of the ring against every element of the ball that it touches.
 
 use super::depth::{Depth, Sloped};
-use super::elements::{ElementPair, Lean, RingElement};
+use super::elements::{ElementPair, RingElement, WaveSlope};
 use crate::contact::kernel::{self, ElementState};
 use crate::contact::scalar::{Node, OneContact};
 use crate::contact::{Aside, Sink, Touch, V2, cross, turned};
@@ -95,7 +95,7 @@ impl OneContact<'_> {
         };
         sink.touch(&touch);
         if !pair.waves.is_round() {
-            let Lean { force, arm } = feature.lean;
+            let WaveSlope { force, arm } = feature.wave_slope;
             sink.aside(&Aside {
                 plane: force * (elastic * state.share.0),
                 axial: 0.0,

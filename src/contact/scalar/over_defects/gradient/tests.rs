@@ -206,10 +206,10 @@ fn forces_of_pits_are_the_gradient_of_the_energy() {
                 let mut on_race = Defect::pit(Surface::OuterRace, 0.0, 0.24e-3);
                 on_race.length = 0.3e-3;
                 let l = 6.24e-3 - RADIUS + 15e-6;
-                let lean = ((place[2] - 0.1e-3) / l).asin();
+                let angle = ((place[2] - 0.1e-3) / l).asin();
                 let direction = place[1].atan2(place[0]);
                 on_race.angle = direction - place[4] + aside / 30e-3;
-                let z = 0.1e-3 + 6.24e-3 * lean.sin() + across;
+                let z = 0.1e-3 + 6.24e-3 * angle.sin() + across;
                 let radius = plain.race.radius(z).unwrap();
                 let mut pitted = Fault::pit(&on_race, z, radius, contacts);
                 pitted.widen(0.3e-3);
@@ -220,7 +220,7 @@ fn forces_of_pits_are_the_gradient_of_the_energy() {
                 };
                 let turned = facing - place[3] - aside / RADIUS;
                 let on_ball = Defect::pit(Surface::Ball, turned, 0.2e-3);
-                let mut pit = Fault::pit(&on_ball, RADIUS * lean.sin() - across, RADIUS, contacts);
+                let mut pit = Fault::pit(&on_ball, RADIUS * angle.sin() - across, RADIUS, contacts);
                 pit.widen(0.3e-3);
                 let mut race = pair(sigma, is_hertz, None, 30);
                 race.faults = vec![pitted];

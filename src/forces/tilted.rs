@@ -10,7 +10,7 @@
 use nalgebra::Vector6;
 
 use super::{Account, RingWrench, State};
-use crate::contact::LeaningRing;
+use crate::contact::TiltedRing;
 use crate::model::{CoupledModel, Degree, Model, Race, RingModel};
 use crate::tilt::Frame;
 
@@ -29,7 +29,7 @@ pub(crate) fn support(
     model: &Model,
     race: Race,
     state: &State,
-    leaning: &LeaningRing,
+    tilted: &TiltedRing,
     on_spin: f64,
 ) -> RingWrench {
     let ring = &model.rings[race];
@@ -42,16 +42,16 @@ pub(crate) fn support(
     }
     let mut sum = RingWrench::default();
     if let Some(coupled) = &ring.coupled {
-        let [places, speeds] = stretched(ring, coupled, race, state, leaning);
+        let [places, speeds] = stretched(ring, coupled, race, state, tilted);
         let pull = -(coupled.stiffness * places + coupled.damping * speeds);
-        let arm = leaning.rotation.frame.axis() * coupled.place;
+        let arm = tilted.rotation.frame.axis() * coupled.place;
         sum.force = pull.fixed_rows::<3>(0).into_owned();
         sum.moment = arm.cross(&sum.force);
         for i in 0..3 {
             forces[i] += pull[3 + i];
         }
     }
-    sum.moment += leaning.rotation.moment_of(forces);
+    sum.moment += tilted.rotation.moment_of(forces);
     sum
 }
 
@@ -61,13 +61,13 @@ fn stretched(
     coupled: &CoupledModel,
     race: Race,
     state: &State,
-    leaning: &LeaningRing,
+    tilted: &TiltedRing,
 ) -> [Vector6<f64>; 2] {
     let motion = state.motion(race.ring());
     let [tilt, rates] = state.tilt(race);
-    let frame = &leaning.rotation.frame;
+    let frame = &tilted.rotation.frame;
     let moved = (frame.axis() - Frame::new(ring.tilt).axis()) * coupled.place;
-    let moving = leaning
+    let moving = tilted
         .rotation
         .angular_velocity()
         .cross(&(frame.axis() * coupled.place));
@@ -94,7 +94,7 @@ fn stretched(
 /// Of the supports of tilts and coupled supports in a state.
 pub(crate) fn account(model: &Model, y: &[f64]) -> Account {
     let mut account = Account::default();
-    if !model.leans() {
+    if !model.tilts() {
         return account;
     }
     let mut state = State::new(model);
@@ -109,8 +109,8 @@ pub(crate) fn account(model: &Model, y: &[f64]) -> Account {
             }
         }
         if let Some(coupled) = &ring.coupled {
-            let leaning = state.leaning(model, race);
-            let [places, speeds] = stretched(ring, coupled, race, &state, &leaning);
+            let tilted = state.tilted(model, race);
+            let [places, speeds] = stretched(ring, coupled, race, &state, &tilted);
             account.support += 0.5 * places.dot(&(coupled.stiffness * places));
             account.power += speeds.dot(&(coupled.damping * speeds));
         }

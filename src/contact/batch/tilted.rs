@@ -24,7 +24,7 @@ impl Pair {
     /// As [`Pair::forces`], of eight contacts in the frame of a ring that may tilt, where it stands still and balls turn across its axis
     /// so fast \[rad/s\]. Moments across the axis are returned as well, on balls and on the ring about the origin \[N m\].
     #[inline(always)]
-    pub(crate) fn forces_leaning<const FMA: bool>(
+    pub(crate) fn forces_tilted<const FMA: bool>(
         &self,
         (eight, turning): (&EightContacts, Across),
         ring: &Motion,

@@ -89,7 +89,7 @@ pub(super) fn momenta(model: &Model, y: &[f64]) -> [Vector3<f64>; 2] {
             }
             Some(race) => {
                 place.z += model.rings[race].centre_of_mass;
-                let rotation = model.leaning(y, race).rotation;
+                let rotation = model.tilted(y, race).rotation;
                 let (axis, turning) = (rotation.frame.axis(), rotation.angular_velocity());
                 let about = axis * turning.dot(&axis);
                 let inertia = &model.rings[race].inertia;
@@ -140,8 +140,8 @@ fn free_rings_keep_energy_and_momenta() {
         let [before, after] = [&y0, &end].map(|y| inspect::energy(&model, y).total());
         println!("{law:?}: energy {before} {:e}", after / before - 1.0);
         assert!((after / before - 1.0).abs() < 1e-9, "{law:?}");
-        let leaned = model.tilt(&end, Race::Inner)[0];
-        assert!(leaned[0].hypot(leaned[1]) > 1e-5, "{leaned:?}");
+        let tilted = model.tilt(&end, Race::Inner)[0];
+        assert!(tilted[0].hypot(tilted[1]) > 1e-5, "{tilted:?}");
         let [from, to] = [&y0, &end].map(|y| momenta(&model, y));
         for (from, to) in from.into_iter().zip(to) {
             println!("{from} {:e}", (from - to).norm());
@@ -219,7 +219,7 @@ fn parallel_rings_are_those_that_do_not_tilt() {
             (ring.support.tilt_x, ring.support.tilt_y) = (None, None);
         }
         let held = compile(&scene).unwrap();
-        assert!(loose.leans() && !held.leans());
+        assert!(loose.tilts() && !held.tilts());
         let bodies = held.layout().half();
         let plain = [&y[..bodies], &y[half..half + bodies]].concat();
         let mut dy = [vec![0.0; y.len()], vec![0.0; plain.len()]];
@@ -264,7 +264,7 @@ fn forces_turn_with_the_bearing() {
             turned[layout.at(id, dof)] = moved[dof.index()];
         }
         if let Some(race) = race {
-            let axis = turn * model.leaning(&y, race).rotation.frame.axis();
+            let axis = turn * model.tilted(&y, race).rotation.frame.axis();
             turned[layout.at(id, Dof::TiltX)] = -axis.y;
             turned[layout.at(id, Dof::TiltY)] = axis.x;
         }
@@ -371,7 +371,7 @@ fn moments_by_eights_are_those_of_ones() {
                     let expected = inspect::moments(&model, 0.0, &y);
                     let moments = |mut dynamics: Dynamics<'_>| {
                         dynamics.forces(0.0, &y);
-                        dynamics.leaning.unwrap().moments()
+                        dynamics.tilted.unwrap().moments()
                     };
                     let found = moments(Dynamics::new(&model));
                     if let Some(pool) = &pool {
@@ -381,7 +381,7 @@ fn moments_by_eights_are_those_of_ones() {
                     let size = found[0].norm() + found[1].norm();
                     assert!(size > 0.1);
                     for race in Race::BOTH {
-                        let axis = model.leaning(&y, race).rotation.frame.axis();
+                        let axis = model.tilted(&y, race).rotation.frame.axis();
                         let across = found[race] - axis * found[race].dot(&axis);
                         for i in 0..2 {
                             let off = (across[i] - expected[race][i]).abs();

@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 
 use super::batch::{Batch, OnRings, RingView};
 use crate::base::pool::Pool;
-use crate::contact::{LeaningRing, attitude_accelerations};
+use crate::contact::{TiltedRing, attitude_accelerations};
 use crate::forces::{State, Table, drive};
 use crate::model::{BodyId, Degree, Dof, Model, Race};
 
@@ -49,7 +49,7 @@ impl SpatialWork {
         pool: Option<&Pool>,
     ) -> [f64; 2] {
         let views = RingView::look(&mut self.rings, model, state);
-        let on_rings = contacts.add_leaning(forces, model, &views, pool);
+        let on_rings = contacts.add_tilted(forces, model, &views, pool);
         contacts.moments_on_balls(&mut self.across);
         self.carry(&on_rings, forces);
         on_rings.map(|[_, moment]| moment.z)
@@ -74,7 +74,7 @@ impl SpatialWork {
     /// The rings, and the moments on them to add to.
     pub fn rings_and_moments(
         &mut self,
-    ) -> (Option<[&LeaningRing; 2]>, Option<&mut [Vector3<f64>; 2]>) {
+    ) -> (Option<[&TiltedRing; 2]>, Option<&mut [Vector3<f64>; 2]>) {
         let rings = self.rings.each_ref().map(|view| &view.ring);
         (Some(rings), Some(&mut self.moments))
     }
@@ -117,7 +117,7 @@ impl SpatialWork {
 pub(crate) fn turning_accelerations(
     model: &Model,
     race: Race,
-    ring: &LeaningRing,
+    ring: &TiltedRing,
     moment: &Vector3<f64>,
     driven: [f64; 3],
 ) -> [f64; 3] {

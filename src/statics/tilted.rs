@@ -46,7 +46,7 @@ impl Problem<'_> {
     /// The place of a ball in the frame of a ring that may tilt.
     pub(super) fn seen(&self, rings: &Rings, race: Race, centre: &Vector3<f64>) -> Vector3<f64> {
         let from = centre - unknowns::of(rings, race);
-        if !self.model.leans() {
+        if !self.model.tilts() {
             return from;
         }
         let of_ring = Vector3::z() * self.model.rings[race].centre_of_mass;
@@ -57,7 +57,7 @@ impl Problem<'_> {
     pub(super) fn apply(&self, rings: &Rings, forces: &mut Rings, stiffness: &mut RingStiffness) {
         for race in Race::BOTH {
             let k = unknowns::first(race);
-            let (more, against) = match (self.model.leans(), self.placed) {
+            let (more, against) = match (self.model.tilts(), self.placed) {
                 (false, false) => continue,
                 (true, false) => self.applied(rings, race),
                 (false, true) => self.by_place(rings, race),
@@ -162,8 +162,8 @@ impl Problem<'_> {
 
     /// Displacement of a tilted ring's groove centre at a ball, for springs between groove centres: along the ball's direction, and
     /// axially.
-    pub(super) fn leaned(&self, j: usize, rings: &Rings, race: Race) -> [f64; 2] {
-        if !self.model.leans() {
+    pub(super) fn by_tilt(&self, j: usize, rings: &Rings, race: Race) -> [f64; 2] {
+        if !self.model.tilts() {
             return [0.0; 2];
         }
         let row = &self.model.scene.rows[self.model.balls[j].row];
