@@ -222,7 +222,9 @@ def test_healthy_bearings_of_the_library_are_accused_at_the_rate_asked_for() -> 
             loud = size >= np.maximum(limits.faint * rate, limits.slow)
             others = judged()[(judged()["part"] == "none") & (judged()["bearing"] != bearing)]
             strong = own[f"accel_{part}"] > others[f"accel_{part}"].max()
-            named |= loud & ((chance < 0.01 * DOUBT) & (ratio < UNLIKELY[part]) | (chance < 0.01) & strong)
+            named |= loud & (
+                (chance < 0.01 * DOUBT) & (ratio < UNLIKELY[part]) | (chance < 0.01) & strong
+            )
         accused += int(np.count_nonzero(named))
     print(f"\n[verdict] simulated, {len(rows)} healthy of the library, each bearing judged by all others | "
           f"{accused / len(rows):.1%} accused | 1 % asked for")  # fmt: skip
