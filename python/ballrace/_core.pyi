@@ -9,6 +9,7 @@ __all__ = [
     "Simulation",
     "amplitudes",
     "available_threads",
+    "axis_ratio",
     "campaign",
     "check_run",
     "dynamic_coefficients",

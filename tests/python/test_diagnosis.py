@@ -292,11 +292,11 @@ def test_likelihood_decides_where_chance_leaves_doubt() -> None:
     evidence = judged(100.0 * x / x.std(), unit="m/s^2").evidence
     limits = limits_of(math.pi * br.catalogue["6205"].pitch_diameter * SHAFT)
 
-    def told(chance: float, ratio: float, own: Part | None = None) -> Verdict:
+    def told(chance: float, ratio: float, own: Part | None = None, unit: bool = True) -> Verdict:
         inner = replace(evidence["inner_race"], probability=chance, ratio=ratio)
         return decided(
-            dict(evidence) | {"inner_race": inner}, () if own is None else (own,), 0.01, strong=(), limits=limits,
-            silent=False, impacts=None, wanting=(),
+            dict(evidence) | {"inner_race": inner}, () if own is None else (own,), 0.01, strong=(),
+            limits=limits if unit else None, silent=False, impacts=None, wanting=(),
         )  # fmt: skip
 
     assert told(0.02, 0.05).parts == ("inner_race",)
@@ -308,10 +308,11 @@ def test_likelihood_decides_where_chance_leaves_doubt() -> None:
         told(0.02, 0.2).verdict,
         told(0.04, 0.05).verdict,
         told(0.02, 0.05, "ball").verdict,
+        told(0.02, 0.05, unit=False).verdict,
     } == {"undecided"}
 
 
-def test_blows_at_no_rate_of_the_bearing_leave_it_open() -> None:
+def test_impacts_at_no_rate_of_the_bearing_leave_it_open() -> None:
     """A speed that is 3 % off, and the rate of no part: neither accuses, neither clears."""
     for x, rpm in ((blows(ORDERS.bpfi, 1.0), 1.03 * RPM), (blows(4.31), RPM)):
         found = judged(noise(x, 0.02), rpm=rpm)

@@ -30,9 +30,10 @@ NAMES: dict[Part, str] = {
 DOUBT = 3.0
 """Up to so many times the false-alarm rate a part with strong lines is doubted, not cleared.
 
-There the likelihood ratio decides, where no part has lines that stand out: at 1 % it names 32 of 432 damaged parts
-more in the sets 47 and 48 (``benches/verdict_set.py``), and none of 432 healthy bearings. Healthy records of the
-library with lines of that probability have ratios from 0.15 on, each bearing judged by all others.
+There the likelihood ratio decides, where the unit is known and no part has lines that stand out: at 1 % it
+names 32 of 432 damaged parts more in the sets 47 and 48 (``benches/verdict_set.py``), and none of 432 healthy
+bearings. Healthy records of the library with lines of that probability have ratios from 0.15 on, each bearing
+judged by all others. Without a unit it would accuse 9 of 500 records of random impacts for 6.
 """
 
 _BESIDE = 0.5
@@ -122,9 +123,10 @@ def decided(
         for one in ranked
         if one.probability < DOUBT * false_alarm and not one.strength.is_shallow and is_loud(one)
     ]
-    for one in doubted:
-        if not own and not _looks_sound(one) and _not_sure(one, limits, silent) is None:
-            return Verdict(verdict="damaged", parts=(one.part,), why=_supported(one))
+    if limits is not None and not own:
+        for one in doubted:
+            if not _looks_sound(one) and _not_sure(one, limits, silent) is None:
+                return Verdict(verdict="damaged", parts=(one.part,), why=_supported(one))
     unexplained = [] if own or impacts is None else [_impacts(impacts)]
     likely = [one for one in ranked if one.part not in own and _is_likely(one)]
     needs = [
