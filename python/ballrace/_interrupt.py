@@ -40,7 +40,7 @@ def answers_ctrl_c(function: Callable[P, T]) -> Callable[P, T]:
     return called
 
 
-def heard_once(work: Callable[[], T]) -> T:
+def interrupted_once(work: Callable[[], T]) -> T:
     """Let polars work on a thread of its own, and wait for its end; after Ctrl-C it soon ends what it does."""
     if not _hears_signals():
         return work()

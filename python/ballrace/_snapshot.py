@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ._interrupt import heard_once
+from ._interrupt import interrupted_once
 from ._io.files import as_path
 from ._io.parquet import read_sealed, sealing
 from ._io.record import samples, unless_damaged
@@ -63,7 +63,7 @@ class Snapshot:
         told = {"ballrace": f"snapshot {_FORMAT}", _ENTRY: self._document}
         with whole(path) as temporary, sealing(temporary, path):
             table = pl.DataFrame(joined(self._pieces))
-            heard_once(lambda: table.write_parquet(temporary, metadata=told))
+            interrupted_once(lambda: table.write_parquet(temporary, metadata=told))
 
     @classmethod
     def read(cls, path: str | os.PathLike[str]) -> Snapshot:

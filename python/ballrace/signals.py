@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from . import _core
 from ._features import feature_options
 from ._html import paragraph, points, waveform
-from ._interrupt import heard_once
+from ._interrupt import interrupted_once
 from ._io.files import PARQUET, as_path
 from ._io.parquet import read_sealed, scan_sealed, sealing
 from ._io.record import Scanned, described, metadata, samples, unless_damaged
@@ -320,7 +320,7 @@ class Signals(Columns):
         """
         with whole(path) as temporary, sealing(temporary, path):
             table, told = self.to_polars(), metadata(self)
-            heard_once(lambda: table.write_parquet(temporary, metadata=told))
+            interrupted_once(lambda: table.write_parquet(temporary, metadata=told))
 
     @classmethod
     def read_parquet(cls, path: str | os.PathLike[str]) -> Signals:

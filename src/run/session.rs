@@ -131,7 +131,7 @@ impl<'s> Session<'s> {
     /// Goes on to the duration of the run, and ends there.
     pub fn complete(mut self, progress: Progress<'_>) -> Result<Signals> {
         self.go(self.run.duration, true, progress)?;
-        Ok(self.told())
+        Ok(self.into_signals())
     }
 
     /// Goes on to a time \[s\], at most the duration of the run, and ends there if asked to.
@@ -260,7 +260,7 @@ impl<'s> Session<'s> {
     }
 
     /// What the run has given.
-    pub fn told(self) -> Signals {
+    pub fn into_signals(self) -> Signals {
         let mut stats = self.statistics();
         stats.acceleration_residual = self.recorder.residual.value();
         let settled = &self.prepared.settled;
@@ -273,8 +273,11 @@ impl<'s> Session<'s> {
             threads: self.threads,
             options: &self.options,
             reduction: self.reduction,
-            defects: self.recorder.watch.told(&self.model, &self.prepared.placed),
-            kinematics: self.recorder.orbits.told(&self.model),
+            defects: self
+                .recorder
+                .watch
+                .results(&self.model, &self.prepared.placed),
+            kinematics: self.recorder.orbits.results(&self.model),
         };
         Signals {
             fs: self.run.fs,

@@ -319,7 +319,7 @@ impl Simulation {
             self.session.run.duration = time;
         }
         self.go(time, true, progress)?;
-        Ok(self.session.told())
+        Ok(self.session.into_signals())
     }
 
     /// Whether it can be ended here, which takes it.

@@ -141,7 +141,7 @@ impl Orbits {
     }
 
     /// What the rows did whose balls drive at the end of the run; empty of a run of less than a turn.
-    pub fn told(&self, model: &Model) -> Vec<RowKinematics> {
+    pub fn results(&self, model: &Model) -> Vec<RowKinematics> {
         let Some([first, last]) = self.times else {
             return Vec::new();
         };

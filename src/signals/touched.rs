@@ -136,7 +136,7 @@ struct Watched {
     felt: bool,
     /// Outer and inner race, to be looked at with few slices; they have all defects of the row, which share them.
     pairs: Arc<[Pair; 2]>,
-    eyes: Vec<Eye>,
+    contacts: Vec<WatchedContact>,
     passes: usize,
     touched: usize,
     largest_load: f64,
@@ -166,7 +166,7 @@ impl MostLoaded {
 type Pairs = BTreeMap<(usize, usize), Arc<[Pair; 2]>>;
 
 /// A contact that may meet a defect.
-struct Eye {
+struct WatchedContact {
     /// Ball among all balls.
     ball: usize,
     race: Race,
@@ -211,7 +211,7 @@ impl DefectWatch {
     pub fn prepare(&mut self, dynamics: &Dynamics<'_>, start: &[f64]) {
         self.y = start.to_vec();
         for defect in &mut self.defects {
-            let row = dynamics.model().balls[defect.eyes[0].ball].row;
+            let row = dynamics.model().balls[defect.contacts[0].ball].row;
             defect.felt = dynamics.evaluates(row);
         }
     }
@@ -225,8 +225,8 @@ impl DefectWatch {
             if let Some(same) = named.find(|other| other.name == of.name) {
                 (same.passes, same.touched) = (of.passes, of.touched);
                 (same.largest_load, same.most) = (of.largest_load, of.most);
-                if same.eyes.len() == of.eyes.len() {
-                    same.eyes = of.eyes;
+                if same.contacts.len() == of.contacts.len() {
+                    same.contacts = of.contacts;
                 }
             }
         }
@@ -245,7 +245,7 @@ impl DefectWatch {
     }
 
     /// What became of the defects, given where they were placed.
-    pub fn told(&self, model: &Model, placed: &BTreeMap<String, Placed>) -> Vec<Touched> {
+    pub fn results(&self, model: &Model, placed: &BTreeMap<String, Placed>) -> Vec<Touched> {
         let of = |watched: &Watched| {
             let defect = &model.scene().defects[&watched.name];
             let placed = placed.get(&watched.name).copied();
@@ -300,7 +300,7 @@ impl Watched {
     fn new(model: &Model, name: &str, defect: &Defect, pairs: &mut Pairs) -> Self {
         let row = &model.rows[defect.row];
         let with = |race: Race| row.balls().map(|ball| (ball, race)).collect();
-        let contacts: Vec<(usize, Race)> = match defect.on {
+        let at: Vec<(usize, Race)> = match defect.on {
             Surface::OuterRace => with(Race::Outer),
             Surface::InnerRace => with(Race::Inner),
             Surface::Ball => {
@@ -308,7 +308,7 @@ impl Watched {
                 Race::BOTH.map(|race| (ball, race)).to_vec()
             }
         };
-        let eye = |(ball, race)| Eye {
+        let contact = |(ball, race)| WatchedContact {
             ball,
             race,
             aside: f64::NAN,
@@ -331,7 +331,7 @@ impl Watched {
             origin,
             felt: true,
             pairs: Arc::clone(pairs),
-            eyes: contacts.into_iter().map(eye).collect(),
+            contacts: at.into_iter().map(contact).collect(),
             passes: 0,
             touched: 0,
             largest_load: 0.0,
@@ -342,10 +342,10 @@ impl Watched {
     /// Looks at all contacts in a state of all bodies; how long until the next look \[s\].
     fn look(&mut self, model: &Model, y: &[f64]) -> f64 {
         let mut wait = f64::INFINITY;
-        for i in 0..self.eyes.len() {
-            let eye = &mut self.eyes[i];
-            let DefectView { aside, rate, half } = eye.look(model, y, &self.fault, self.on);
-            let before = std::mem::replace(&mut eye.aside, aside);
+        for i in 0..self.contacts.len() {
+            let contact = &mut self.contacts[i];
+            let DefectView { aside, rate, half } = contact.look(model, y, &self.fault, self.on);
+            let before = std::mem::replace(&mut contact.aside, aside);
             // A narrow one may lie between two steps.
             let across = before.signum() != aside.signum() && (before - aside).abs() < PI;
             if aside.abs() <= half {
@@ -355,7 +355,7 @@ impl Watched {
             }
             if aside.abs() > AWAY * half {
                 // One that has touched is counted; another only now, since until here it might have.
-                let pass = std::mem::replace(&mut self.eyes[i].pass, Pass::None);
+                let pass = std::mem::replace(&mut self.contacts[i].pass, Pass::None);
                 self.passes += usize::from(pass == Pass::Untouched);
             }
             let until = HALFWAY * (aside.abs() - half).max(0.0);
@@ -366,39 +366,39 @@ impl Watched {
     }
 
     /// A contact stands over the defect, this far from its middle \[rad\].
-    fn meet(&mut self, eye: usize, model: &Model, y: &[f64], aside: f64) {
-        let eye = &mut self.eyes[eye];
-        if eye.pass == Pass::None {
-            eye.pass = Pass::Untouched;
+    fn meet(&mut self, contact: usize, model: &Model, y: &[f64], aside: f64) {
+        let contact = &mut self.contacts[contact];
+        if contact.pass == Pass::None {
+            contact.pass = Pass::Untouched;
         }
         if !self.felt {
             return;
         }
-        let [ball, ring] = model.facing(y, eye.ball, eye.race);
+        let [ball, ring] = model.facing(y, contact.ball, contact.race);
         let sighted = Sighted {
             fault: &self.fault,
             on_ball: self.on == Surface::Ball,
             aside,
             ball: &ball,
         };
-        let side = &model.balls[eye.ball].side;
-        let found = self.pairs[eye.race].load_within(side, &ball, &ring, &sighted);
-        if found.within > 0.0 && eye.pass == Pass::Untouched {
+        let side = &model.balls[contact.ball].side;
+        let found = self.pairs[contact.race].load_within(side, &ball, &ring, &sighted);
+        if found.within > 0.0 && contact.pass == Pass::Untouched {
             self.passes += 1;
             self.touched += 1;
-            eye.pass = Pass::Touched;
+            contact.pass = Pass::Touched;
         }
         self.largest_load = self.largest_load.max(found.within);
         let met = MostLoaded {
             load: found.load,
             place: found.place,
-            race: eye.race,
+            race: contact.race,
         };
         self.most = met.or(self.most);
     }
 }
 
-impl Eye {
+impl WatchedContact {
     fn look(&self, model: &Model, y: &[f64], fault: &Fault, on: Surface) -> DefectView {
         let [ball, ring] = model.facing(y, self.ball, self.race);
         let seen = ball.seen_from(&ring);

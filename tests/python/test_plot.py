@@ -367,6 +367,7 @@ def test_bad_arguments_are_named(faulty: br.Signals, animated: br.Signals, wheel
         (plot.section, "scene", "a Scene"),
         (plot.unrolled, "scene", "a Scene"),
         (plot.load_distribution, "loads", "what ballrace.equilibrium"),
+        (plot.force_distribution, "balls", "what ballrace.equilibrium returns"),
     ],
 )  # fmt: skip
 def test_what_is_no_run_is_refused_by_name(

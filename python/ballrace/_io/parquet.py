@@ -16,7 +16,7 @@ import os
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, BinaryIO, TypeVar
 
-from .._interrupt import heard_once
+from .._interrupt import interrupted_once
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -85,7 +85,7 @@ def read_sealed(
     is_sealed(path)
     if check is not None:
         check(path)
-    table = _unless_damaged(lambda: heard_once(lambda: pl.read_parquet(path, glob=False)))
+    table = _unless_damaged(lambda: interrupted_once(lambda: pl.read_parquet(path, glob=False)))
     return table, _unless_damaged(lambda: pl.read_parquet_metadata(path))
 
 
@@ -126,7 +126,7 @@ def read_columns(path: Path, names: list[str]) -> pl.DataFrame:
     """Read some columns of a Parquet file whose hash is known to be right."""
     from .._polars import pl
 
-    return heard_once(lambda: pl.read_parquet(path, columns=names, glob=False))
+    return interrupted_once(lambda: pl.read_parquet(path, columns=names, glob=False))
 
 
 def read_bytes(data: bytes) -> tuple[pl.DataFrame, dict[str, str]]:
@@ -139,13 +139,13 @@ def read_bytes(data: bytes) -> tuple[pl.DataFrame, dict[str, str]]:
     """
     from .._polars import pl
 
-    table = _unless_damaged(lambda: heard_once(lambda: pl.read_parquet(io.BytesIO(data))))
+    table = _unless_damaged(lambda: interrupted_once(lambda: pl.read_parquet(io.BytesIO(data))))
     return table, _unless_damaged(lambda: pl.read_parquet_metadata(io.BytesIO(data)))
 
 
 def collected(query: pl.LazyFrame) -> pl.DataFrame:
     """Return what a query of Parquet files gives."""
-    return heard_once(query.collect)
+    return interrupted_once(query.collect)
 
 
 def to_bytes(
@@ -153,7 +153,7 @@ def to_bytes(
 ) -> bytes:
     """Return a table as a Parquet file, with its hash in it if wanted."""
     buffer = io.BytesIO()
-    heard_once(lambda: table.write_parquet(buffer, metadata=metadata))
+    interrupted_once(lambda: table.write_parquet(buffer, metadata=metadata))
     if sealed:
         _seal(buffer)
     return buffer.getvalue()

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from .._interrupt import heard_once
+from .._interrupt import interrupted_once
 from ..errors import BallraceError, FileError, SceneError
 from ..scene import Scene
 from .parquet import columns_and_rows, read_bytes, read_columns, sealing, to_bytes, writing_to
@@ -59,7 +59,7 @@ class Writer:
     def finish(self, metadata: dict[str, str]) -> None:
         """Write the one file, sealed."""
         with sealing(self._path, self._target):
-            heard_once(lambda: self._join(metadata))
+            interrupted_once(lambda: self._join(metadata))
 
     def _join(self, metadata: dict[str, str]) -> None:
         from .._polars import pl

@@ -10,7 +10,7 @@ import json
 from typing import TYPE_CHECKING, Any
 
 from ..errors import CampaignError
-from .disk import hash_of, put, refuse_link
+from .disk import hash_of, put, reading, refuse_link
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -53,12 +53,8 @@ def read(path: Path) -> dict[str, Any]:
         It cannot be read, is a link, or of another format.
     """
     refuse_link(path)
-    try:
+    with reading(path):
         data = path.read_bytes()
-    except FileNotFoundError:
-        raise
-    except OSError as error:
-        raise CampaignError(f"{path}: cannot be read ({error.strerror or error})") from error
     try:
         found = json.loads(data)
         written = found.pop("digest", None)

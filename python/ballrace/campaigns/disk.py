@@ -37,6 +37,19 @@ def refuse_link(path: Path) -> None:
         )
 
 
+@contextmanager
+def reading(path: Path) -> Iterator[None]:
+    """Raise a CampaignError for a file that cannot be read, but not for one that is damaged or absent."""
+    try:
+        yield
+    except FileNotFoundError:
+        raise
+    except OSError as error:
+        why = error.strerror or str(error)
+        text = "it may be whole, and is left as it is: make it readable, and call again"
+        raise CampaignError(f"{path}: cannot be read ({why}); {text}") from error
+
+
 def put(root: Path, name: str, data: bytes, *, new: bool = False) -> bool:
     """Write a file within ``root`` that is there whole or not at all, also after a loss of power.
 

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import hashlib
 import re
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from .._io.parquet import read_bytes
 from ..errors import CampaignError
 from .columns import check_results
-from .disk import hash_of, refuse_link
+from .disk import hash_of, reading, refuse_link
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable
     from pathlib import Path
 
     import polars as pl
@@ -74,19 +74,6 @@ def check_shard(path: Path) -> None:
         found = hashlib.file_digest(file, lambda: hashlib.blake2b(digest_size=16))
     if found.hexdigest() != path.stem:
         raise ValueError(_NOT_WRITTEN)
-
-
-@contextmanager
-def reading(path: Path) -> Iterator[None]:
-    """Tell what cannot be read from what is damaged, or not there."""
-    try:
-        yield
-    except FileNotFoundError:
-        raise
-    except OSError as error:
-        why = error.strerror or str(error)
-        text = "it may be whole, and is left as it is: make it readable, and call again"
-        raise CampaignError(f"{path}: cannot be read ({why}); {text}") from error
 
 
 def set_aside(damaged: Iterable[Path]) -> None:

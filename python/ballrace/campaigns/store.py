@@ -31,8 +31,8 @@ from .._io.parquet import read_sealed, to_bytes
 from ..errors import CampaignError, CampaignWarning
 from . import description
 from .columns import schema
-from .disk import hash_of, put, refuse_link, sweep
-from .shards import FEATURES, SHARD, check_shard, names, reading, set_aside, shard_of_results
+from .disk import hash_of, put, reading, refuse_link, sweep
+from .shards import FEATURES, SHARD, check_shard, names, set_aside, shard_of_results
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .._interrupt import heard_once
+from .._interrupt import interrupted_once
 from .._io.files import as_path
 from .._io.parquet import writing_to
 from ..errors import SceneError
@@ -103,7 +103,7 @@ def _write_block(path: Path, block: list[tuple[str, NDArray[np.float32]]]) -> No
     samples = pl.Series([pl.Series(part) for part in parts], dtype=pl.List(pl.Float32))
     table = pl.DataFrame({"signal_id": names, "signal": samples})
     with writing_to(path):
-        heard_once(lambda: table.write_parquet(path, row_group_size=table.height))
+        interrupted_once(lambda: table.write_parquet(path, row_group_size=table.height))
 
 
 def _write_table(folder: Path, rows: list[dict[str, Any]]) -> None:
@@ -118,7 +118,7 @@ def _write_table(folder: Path, rows: list[dict[str, Any]]) -> None:
     table = table.select(name for name in COLUMNS if name in table.columns)
     path = folder / "metadata.parquet"
     with writing_to(path):
-        heard_once(lambda: table.write_parquet(path))
+        interrupted_once(lambda: table.write_parquet(path))
 
 
 def _card(dataset: str, rows: list[dict[str, Any]], digest: str) -> dict[str, Any]:

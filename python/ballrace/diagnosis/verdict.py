@@ -123,10 +123,10 @@ def decided(
         for one in ranked
         if one.probability < DOUBT * false_alarm and not one.strength.is_shallow and is_loud(one)
     ]
-    if limits is not None and not own:
-        for one in doubted:
-            if not _looks_sound(one) and _not_sure(one, limits, silent) is None:
-                return Verdict(verdict="damaged", parts=(one.part,), why=_supported(one))
+    likelier = [] if own or limits is None else [one for one in doubted if not _looks_sound(one)]
+    for one in likelier:
+        if _not_sure(one, limits, silent) is None:
+            return Verdict(verdict="damaged", parts=(one.part,), why=_supported(one))
     unexplained = [] if own or impacts is None else [_impacts(impacts)]
     likely = [one for one in ranked if one.part not in own and _is_likely(one)]
     needs = [

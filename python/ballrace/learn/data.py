@@ -217,13 +217,13 @@ def dataset(
     ):  # fmt: skip
         if not least <= real(value) <= most:
             raise SceneError(name, repr(value), f"{least:g} to {most:g}")
-    heard = {
+    chains = {
         name: replace(chain, logger=replace(chain.logger or Logger(), fs=fs))
         for name, chain in named_chains(machines).items()
     }
-    if not 1 <= counted("per_case", per_case, 1) <= len(heard):
-        raise SceneError("per_case", repr(per_case), f"1 to {len(heard)}, the machines")
-    count, drawing = counted("per_class", per_class, 1), Drawing(recipe, counted("seed", seed, 0))
+    per_case = counted("per_case", per_case, 1, len(chains))
+    count, seed = counted("per_class", per_class, 1), counted("seed", seed, 0)
+    drawing = Drawing(recipe, seed)
     making = _Making(drawing=drawing, folder=folder, count=count, options={
         "duration": window + _SKIP, "fs": _OVERSAMPLED * fs, "keep": "signals", "columns": ["outer.ay"],
         "threads": threads,
@@ -235,7 +235,7 @@ def dataset(
         recipe=recipe,
         campaign=done,
         cases=cases,
-        chains=heard,
+        chains=chains,
         fs=fs,
         window=window,
         per_case=per_case,

@@ -87,21 +87,33 @@ def _check_solutions(loads: object) -> None:
 
 
 def force_distribution(
-    balls: Balls, *, largest: float | None = None, fig: go.Figure | None = None, **layout: Any
+    balls: Equilibrium | Balls,
+    *,
+    largest: float | None = None,
+    fig: go.Figure | None = None,
+    **layout: Any,
 ) -> go.Figure:
     """Draw the normal forces of all balls on both races, a polar panel per row.
 
     Parameters
     ----------
-    balls : Balls
-        The balls at one instant.
+    balls : Equilibrium or Balls
+        The balls at rest, or at one instant of the paper's run (``ballrace.paper.Snapshot.balls``).
     largest : float, optional
         Force at the rim of the panels [N], for a scale common to several figures.
     fig : plotly.graph_objects.Figure, optional
         A figure of ``make_subplots`` with as many polar columns as there are rows of balls.
     **layout
         For ``fig.update_layout``.
+
+    Raises
+    ------
+    SceneError
+        ``balls`` are something else.
     """
+    if not all(hasattr(balls, name) for name in ("row", "angle", "outer_load", "inner_load")):
+        allowed = "what ballrace.equilibrium returns, or the balls of a snapshot of the paper"
+        raise SceneError("balls", f"a {type(balls).__name__}", allowed)
     numbers = np.unique(balls.row)
     fig = fig if fig is not None else _polars(tuple(f"row {row}" for row in numbers))
     races = {"outer race": balls.outer_load, "inner race": balls.inner_load}

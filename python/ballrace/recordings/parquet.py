@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING
 
-from .._interrupt import heard_once
+from .._interrupt import interrupted_once
 from .._io.parquet import columns_and_rows, read_sealed, sealing
 from .._io.record import described, unless_damaged
 from .._io.record import samples as column_of
@@ -29,7 +29,7 @@ def write(samples: Samples, temporary: Path, path: Path) -> None:
     table = pl.DataFrame({"t": samples.t, **samples.columns})
     told = {_TOLD: samples.told()}
     with sealing(temporary, path):
-        heard_once(lambda: table.write_parquet(temporary, metadata=told))
+        interrupted_once(lambda: table.write_parquet(temporary, metadata=told))
 
 
 def read(path: Path) -> Samples:

@@ -13,9 +13,9 @@ impl Remembered for DefectWatch {
             of.touched.pass(words);
             of.largest_load.pass(words);
             of.most.pass(words);
-            for eye in &mut of.eyes {
-                eye.aside.pass(words);
-                eye.pass.pass(words);
+            for contact in &mut of.contacts {
+                contact.aside.pass(words);
+                contact.pass.pass(words);
             }
         }
     }
