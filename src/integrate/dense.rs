@@ -91,6 +91,7 @@ impl<'a> DenseStep<'a> {
     ///
     /// # Panics
     /// If `out` is longer than the state.
+    #[inline]
     pub fn interpolate(&self, t: f64, out: &mut [f64]) {
         // Over t1 − t0, not h: the end of the step is then exactly θ = 1.
         let theta = (t - self.t0()) / (self.t1() - self.t0());

@@ -348,6 +348,7 @@ impl Reduction {
 
     /// The states of all bodies at a time, from those that are kept. `full` holds them from another time, or from
     /// the start.
+    #[inline]
     pub(crate) fn expand(&self, model: &Model, t: f64, y: &[f64], full: &mut [f64]) {
         let layout = model.layout();
         self.spread(layout, y, full);
@@ -397,6 +398,7 @@ impl Reduction {
         }
     }
 
+    #[inline]
     fn spread(&self, layout: Layout, y: &[f64], full: &mut [f64]) {
         let (q, v) = full.split_at_mut(layout.half());
         for s in &self.stretches {

@@ -52,6 +52,7 @@ impl Bounds {
     }
 
     /// The body that has left them in a state of the run, if any, and what it does.
+    #[inline]
     pub fn left(&self, y: &[f64]) -> Option<(BodyId, String)> {
         let within = |i: usize| (y[i] - self.centre[i]).abs() <= self.reach[i];
         // Numbers that are none are not within.

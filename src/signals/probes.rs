@@ -218,6 +218,7 @@ impl ProbeReader {
     }
 
     /// Pushes one value a column at a state of all bodies, of whose velocities `accelerations` are the derivatives.
+    #[inline]
     pub fn read(
         &self,
         dynamics: &Dynamics<'_>,
