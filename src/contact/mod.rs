@@ -40,7 +40,7 @@ pub(crate) use batch::{
 };
 pub(crate) use closed_form::{AxiallyFixedBalls, AxiallyFixedRace, InPlane, hertz_stiffness};
 #[doc(hidden)]
-pub use defect::Fault;
+pub use defect::SurfaceDefect;
 pub(crate) use defect::{MOST_PITS, PittedContact, Sight, Toward, pits_at_once};
 #[doc(hidden)]
 pub use frames::Motion;

@@ -46,7 +46,7 @@ impl Pair {
         }
         let distance = place.xy().norm();
         let n = V2::new(place.x, place.y) / distance;
-        let angle = if self.waves.is_round() && self.faults.is_empty() && ball.is_whole() {
+        let angle = if self.waves.is_round() && self.defects.is_empty() && ball.is_whole() {
             0.0
         } else {
             n.y.atan2(n.x)
@@ -70,7 +70,7 @@ impl Pair {
         let resting = Motion::default();
         let toward = Toward::ball(&resting, n * sigma, self.outwards(angle));
         let whole =
-            !self.is_near(angle) && !ball.faults.iter().any(|fault| fault.in_reach(&toward));
+            !self.is_near(angle) && !ball.defects.iter().any(|defect| defect.in_reach(&toward));
         match self.meridional(&section, swell.height).filter(|_| whole) {
             Some(found) => {
                 let waves = (raise.slope, self.waves.bend(angle));

@@ -179,13 +179,13 @@ fn defects(scene: &Scene, placed: &BTreeMap<String, Placed>) -> Result<Vec<Touch
 /// Adds what contacts at equilibrium carry within a defect.
 fn met(mut told: Touched, defect: &Defect, meeting: &DefectPasses) -> Touched {
     let DefectPasses { model, y, contacts } = meeting;
-    let (fault, origin) = compiled(model, defect);
+    let (shape, origin) = compiled(model, defect);
     let mut most = None;
     for &(j, race) in contacts {
         let [ball, ring] = model.facing(y, j, race);
         let pair = &model.rows[defect.row].pairs[race];
         let sighted = Sighted {
-            fault: &fault,
+            defect: &shape,
             on_ball: defect.on == Surface::Ball,
             aside: 0.0,
             ball: &ball,

@@ -166,7 +166,7 @@ impl Sink for Flanks<'_> {
     }
 }
 
-/// The forces of the slices of one contact, in order of ζ; on a fault a slice may appear more than once.
+/// The forces of the slices of one contact, in order of ζ; on a defect a slice may appear more than once.
 ///
 /// # Panics
 /// If the length of `y` is not [`Model::dim`], or there is no such ball.

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::body::{Body, Degree, ball_mass, conformity, groove_radius, ring_mass};
-use super::faults::{ball_fault, race_fault};
+use super::defects::{ball_defect, race_defect};
 use super::loads::{loads, moments};
 use super::race::{RaceGeometry, geometry};
 use super::ring::layout_of;
@@ -15,8 +15,8 @@ use crate::base::error::{Error, Result};
 use crate::base::quantities::number;
 use crate::contact::hertz::Hertz;
 use crate::contact::{
-    BallSide, Damping, Elastic, Fault, Law, MOST_PITS, Pair, Rules, Shape, Torus, Traction, Waves,
-    ZoneSlices, pits_at_once,
+    BallSide, Damping, Elastic, Law, MOST_PITS, Pair, Rules, Shape, SurfaceDefect, Torus, Traction,
+    Waves, ZoneSlices, pits_at_once,
 };
 use crate::scene::{self, Approximations, Defect, Mount, Row, Scene, Surface};
 use crate::simd::InstructionSet;
@@ -65,7 +65,7 @@ pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
                 degrees: row.ball_support.mounts(Mount::Free).map(Degree::from),
             });
             let side = BallSide {
-                faults: ball_faults(scene, (i, index), diameter / 2.0, &rows[i].hertz),
+                defects: ball_defects(scene, (i, index), diameter / 2.0, &rows[i].hertz),
                 ..BallSide::whole(diameter / 2.0)
             };
             balls.push(Ball {
@@ -107,10 +107,10 @@ pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
 fn check_pits_at_once(model: &Model) -> Result<()> {
     for (i, row) in model.rows.iter().enumerate() {
         let balls = model.balls[row.balls()].iter();
-        let of_a_ball = balls.map(|ball| ball.side.faults.iter().filter(|of| of.is_pit()).count());
+        let of_a_ball = balls.map(|ball| ball.side.defects.iter().filter(|of| of.is_pit()).count());
         let of_a_ball = of_a_ball.max().unwrap_or(0);
         for (race, pair) in Race::BOTH.into_iter().zip(&row.pairs) {
-            let count = pits_at_once(&pair.faults) + of_a_ball;
+            let count = pits_at_once(&pair.defects) + of_a_ball;
             if count > MOST_PITS {
                 return Err(Error::scene(
                     "defects",
@@ -259,10 +259,10 @@ fn pair(scene: &Scene, (index, row): (usize, &Row), race: Race) -> Result<(Pair,
     };
     let of_race = |defect: &&Defect| defect.on == surface && defect.row == index;
     let defects = scene.defects.values().filter(of_race);
-    let faults: Vec<Fault> = defects
-        .map(|d| race_fault(d, row, (&pair, &hertz)))
+    let defects: Vec<SurfaceDefect> = defects
+        .map(|d| race_defect(d, row, (&pair, &hertz)))
         .collect();
-    pair.change(|flank| flank.faults.clone_from(&faults));
+    pair.change(|flank| flank.defects.clone_from(&defects));
     Ok((pair, hertz))
 }
 
@@ -291,7 +291,7 @@ fn whole(scene: &Scene, row: &Row, (torus, hertz): (Torus, Hertz)) -> Pair {
             ..Law::elastic(elastic)
         },
         slices,
-        faults: Vec::new(),
+        defects: Vec::new(),
     }
 }
 
@@ -308,17 +308,17 @@ fn check_hollow(path: &str, pair: &Pair, race: Race) -> Result<()> {
     Ok(())
 }
 
-fn ball_faults(
+fn ball_defects(
     scene: &Scene,
     (row, ball): (usize, usize),
     radius: f64,
     hertz: &[Hertz; 2],
-) -> Vec<Fault> {
+) -> Vec<SurfaceDefect> {
     scene
         .defects
         .values()
         .filter(|d| d.on == Surface::Ball && d.row == row && d.ball == Some(ball))
-        .map(|defect| ball_fault(defect, radius, hertz))
+        .map(|defect| ball_defect(defect, radius, hertz))
         .collect()
 }
 

@@ -5,9 +5,9 @@
 
 mod body;
 mod compile;
+mod defects;
 mod demand;
 mod dof;
-mod faults;
 mod given;
 mod layout;
 mod loads;
@@ -28,8 +28,8 @@ use crate::simd::{InstructionSet, LANES};
 
 pub use body::{Body, Degree};
 pub(crate) use compile::compile_placed;
+pub(crate) use defects::{ball_defect, race_defect};
 pub use dof::{DOFS, Dof};
-pub(crate) use faults::{ball_fault, race_fault};
 pub(crate) use given::GivenMotions;
 pub(crate) use layout::RINGS;
 pub use layout::{BodyId, BodyKind, Layout, Race};

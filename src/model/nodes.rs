@@ -77,7 +77,7 @@ fn worst(model: &Model, row: usize, race: Race, rules: &ZoneSlices) -> f64 {
     let compiled = &model.rows[row];
     let mut many = compiled.pairs[race].clone();
     many.change(|flank| {
-        (flank.faults, flank.waves) = (Vec::new(), Waves::default());
+        (flank.defects, flank.waves) = (Vec::new(), Waves::default());
     });
     let mut pair = many.clone();
     pair.change(|flank| flank.slices.clone_from(rules));

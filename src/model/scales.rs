@@ -167,7 +167,7 @@ impl Bottom {
     pub fn new(pair: &Pair, ball: &BallSide) -> Self {
         let mut pair = pair.clone();
         pair.change(|flank| {
-            (flank.faults, flank.waves) = (Vec::new(), Waves::default());
+            (flank.defects, flank.waves) = (Vec::new(), Waves::default());
             flank.law.traction = None;
         });
         Self {

@@ -89,18 +89,18 @@ impl Model {
             for race in Race::BOTH {
                 let widen = |flank: &mut Pair| {
                     flank
-                        .faults
+                        .defects
                         .iter_mut()
-                        .for_each(|fault| fault.widen(widths[race]));
+                        .for_each(|defect| defect.widen(widths[race]));
                 };
                 self.rows[row].pairs[race].change(widen);
             }
             let wider = widths[0].max(widths[1]);
             let balls = self.rows[row].balls();
-            let faults = self.balls[balls]
+            let defects = self.balls[balls]
                 .iter_mut()
-                .flat_map(|ball| &mut ball.side.faults);
-            faults.for_each(|fault| fault.widen(wider));
+                .flat_map(|ball| &mut ball.side.defects);
+            defects.for_each(|defect| defect.widen(wider));
         }
     }
 

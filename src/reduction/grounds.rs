@@ -93,7 +93,7 @@ impl Grounds {
                 }
                 (Dof::Theta, Some(ball)) if self.exact => {
                     let smooth = !model.rows[ball.row].has_friction();
-                    let whole = ball.side.faults.is_empty() && ball.side.waves.is_round();
+                    let whole = ball.side.defects.is_empty() && ball.side.waves.is_round();
                     let loose = stiffness == 0.0 && damping == 0.0;
                     (smooth && whole && loose).then_some(Reason::NoMoment)
                 }
@@ -145,7 +145,7 @@ pub(super) fn is_felt(model: &Model, motion: &Prescribed, reason: Reason) -> boo
         // The angle of a smooth, round and balanced ring has no effect, its speed one on films that follow it.
         Reason::Driven(race) => {
             let told = |pair: &Pair| {
-                pair.law.turns_balls() || !pair.faults.is_empty() || !pair.waves.is_round()
+                pair.law.turns_balls() || !pair.defects.is_empty() || !pair.waves.is_round()
             };
             let on_ring = model.rows.iter().any(|row| told(&row.pairs[race]));
             let turns = forces::ALL.iter().any(|force| force.turns_with_ring(model));
@@ -154,7 +154,7 @@ pub(super) fn is_felt(model: &Model, motion: &Prescribed, reason: Reason) -> boo
         // Only a defect makes the angle of a ball matter.
         Reason::Rolling => {
             let ball = motion.body.as_ball().map(|j| &model.balls[j].side);
-            ball.is_some_and(|side| !side.faults.is_empty())
+            ball.is_some_and(|side| !side.defects.is_empty())
         }
         _ => true,
     }

@@ -2,7 +2,7 @@
 //!
 //! They are searched in the compiled model, so that anything that breaks one is found, whichever field it comes from.
 
-use crate::contact::{Fault, Pair, Torus};
+use crate::contact::{Pair, SurfaceDefect, Torus};
 use crate::forces;
 use crate::model::{Ball, BodyId, Dof, Model, Race, RowModel};
 
@@ -34,15 +34,16 @@ pub(super) fn about_rows(model: &Model, start: &[f64]) -> Symmetry {
             require(torus.lowest == -torus.highest, || {
                 format!("the {race} shoulders of row {i} are unequal")
             })?;
-            let is_mirrored = |fault: &Fault| fault.is_image(fault, 2.0 * plane, ROUNDING);
-            require(pair.faults.iter().all(is_mirrored), || {
+            let is_mirrored =
+                |defect: &SurfaceDefect| defect.is_image(defect, 2.0 * plane, ROUNDING);
+            require(pair.defects.iter().all(is_mirrored), || {
                 format!("a defect of the {race} race of row {i} is off the middle")
             })?;
         }
     }
     let is_mirrored = |ball: &Ball| {
-        let faults = &ball.side.faults;
-        faults.iter().all(|f| f.is_image(f, 0.0, ROUNDING))
+        let defects = &ball.side.defects;
+        defects.iter().all(|f| f.is_image(f, 0.0, ROUNDING))
     };
     require(model.balls.iter().all(is_mirrored), || {
         "a ball's defect is off the middle".to_owned()
@@ -97,7 +98,7 @@ fn images(model: &Model, first: &RowModel, second: &RowModel, start: &[f64]) -> 
                 && one.degrees == other.degrees
                 && a.radius == b.radius
                 && a.waves == b.waves
-                && faults_are_images(&a.faults, &b.faults, 0.0),
+                && defects_are_images(&a.defects, &b.defects, 0.0),
             || format!("balls {k} of the rows differ"),
         )?;
     }
@@ -216,7 +217,7 @@ fn at_rest(model: &Model, start: &[f64], middles: &[f64]) -> Symmetry {
 }
 
 fn pair_is_image(a: &Pair, b: &Pair, sum: f64) -> bool {
-    let faults = faults_are_images(&a.faults, &b.faults, sum);
+    let defects = defects_are_images(&a.defects, &b.defects, sum);
     let image = Pair {
         race: Torus {
             centre: a.race.centre,
@@ -224,21 +225,21 @@ fn pair_is_image(a: &Pair, b: &Pair, sum: f64) -> bool {
             highest: -b.race.lowest,
             ..b.race
         },
-        faults: a.faults.clone(),
+        defects: a.defects.clone(),
         ..b.clone()
     };
     let tori = a.shape.is_torus() && b.shape.is_torus();
-    tori && faults && (a.race.centre + b.race.centre - sum).abs() <= ROUNDING && *a == image
+    tori && defects && (a.race.centre + b.race.centre - sum).abs() <= ROUNDING && *a == image
 }
 
 /// Whether two sets of defects are images: every one has its own.
-fn faults_are_images(a: &[Fault], b: &[Fault], sum: f64) -> bool {
-    let mut left: Vec<&Fault> = b.iter().collect();
+fn defects_are_images(a: &[SurfaceDefect], b: &[SurfaceDefect], sum: f64) -> bool {
+    let mut left: Vec<&SurfaceDefect> = b.iter().collect();
     a.len() == b.len()
-        && a.iter().all(|fault| {
+        && a.iter().all(|defect| {
             let found = left
                 .iter()
-                .position(|other| fault.is_image(other, sum, ROUNDING));
+                .position(|other| defect.is_image(other, sum, ROUNDING));
             found.map(|i| left.swap_remove(i)).is_some()
         })
 }

@@ -30,7 +30,7 @@ const LIGHTEST: f64 = 60.0;
 /// (`tests/accuracy/method_defaults.rs`).
 fn bounds(method: Method) -> MethodBounds {
     match method {
-        // Dormand–Prince is stable to 1 on the imaginary axis and further when damped. On the faulted wheel bearing,
+        // Dormand–Prince is stable to 1 on the imaginary axis and further when damped. On the defective wheel bearing,
         // 6 ms with an impact, the outer ring's acceleration is wrong by 0.06 to 0.3 % at 1 for any rtol from 1e-3 to
         // 1e-6; without the cap by 6 % at rtol 1e-3.
         Method::DormandPrince | Method::Verner => MethodBounds {

@@ -12,10 +12,10 @@ use std::sync::Arc;
 
 use serde::Serialize;
 
-use crate::contact::{Fault, Pair, Sighted, Toward, ZoneSlices};
+use crate::contact::{Pair, Sighted, SurfaceDefect, Toward, ZoneSlices};
 use crate::dynamics::Dynamics;
 use crate::integrate::DenseStep;
-use crate::model::{Model, Race, ball_fault, race_fault};
+use crate::model::{Model, Race, ball_defect, race_defect};
 use crate::scene::{Defect, Doubt, Scene, Surface};
 use crate::statics::Placed;
 
@@ -128,7 +128,7 @@ pub(crate) struct DefectWatch {
 /// A defect and the contacts that may meet it.
 struct Watched {
     name: String,
-    fault: Fault,
+    shape: SurfaceDefect,
     on: Surface,
     /// From where its axial place is measured, in the frame of its body \[m\].
     origin: f64,
@@ -262,7 +262,7 @@ impl DefectWatch {
 }
 
 /// A defect of a compiled scene as its contacts see it, and the place from which its axial place is measured \[m\].
-pub(crate) fn compiled(model: &Model, defect: &Defect) -> (Fault, f64) {
+pub(crate) fn compiled(model: &Model, defect: &Defect) -> (SurfaceDefect, f64) {
     let (row, pairs) = (
         &model.scene().rows[defect.row],
         &model.rows[defect.row].pairs,
@@ -272,18 +272,18 @@ pub(crate) fn compiled(model: &Model, defect: &Defect) -> (Fault, f64) {
         model.typical_widths(defect.row),
     );
     let on_race = |race: Race| {
-        let mut fault = race_fault(defect, row, (&pairs[race], &hertz[race]));
-        fault.widen(widths[race]);
-        (fault, row.axial_position)
+        let mut shape = race_defect(defect, row, (&pairs[race], &hertz[race]));
+        shape.widen(widths[race]);
+        (shape, row.axial_position)
     };
     match defect.on {
         Surface::OuterRace => on_race(Race::Outer),
         Surface::InnerRace => on_race(Race::Inner),
         Surface::Ball => {
             let ball = model.rows[defect.row].first + defect.ball.unwrap_or(0);
-            let mut fault = ball_fault(defect, model.balls[ball].side.radius, hertz);
-            fault.widen(widths[0].max(widths[1]));
-            (fault, 0.0)
+            let mut shape = ball_defect(defect, model.balls[ball].side.radius, hertz);
+            shape.widen(widths[0].max(widths[1]));
+            (shape, 0.0)
         }
     }
 }
@@ -314,7 +314,7 @@ impl Watched {
             aside: f64::NAN,
             pass: Pass::None,
         };
-        let (fault, origin) = compiled(model, defect);
+        let (shape, origin) = compiled(model, defect);
         let diameter = model.scene().rows[defect.row].ball_diameter;
         let slices = slices(defect.extent(), diameter);
         let pairs = pairs.entry((defect.row, slices)).or_insert_with(|| {
@@ -326,7 +326,7 @@ impl Watched {
         });
         Self {
             name: name.to_owned(),
-            fault,
+            shape,
             on: defect.on,
             origin,
             felt: true,
@@ -344,7 +344,7 @@ impl Watched {
         let mut wait = f64::INFINITY;
         for i in 0..self.contacts.len() {
             let contact = &mut self.contacts[i];
-            let DefectView { aside, rate, half } = contact.look(model, y, &self.fault, self.on);
+            let DefectView { aside, rate, half } = contact.look(model, y, &self.shape, self.on);
             let before = std::mem::replace(&mut contact.aside, aside);
             // A narrow one may lie between two steps.
             let across = before.signum() != aside.signum() && (before - aside).abs() < PI;
@@ -376,7 +376,7 @@ impl Watched {
         }
         let [ball, ring] = model.facing(y, contact.ball, contact.race);
         let sighted = Sighted {
-            fault: &self.fault,
+            defect: &self.shape,
             on_ball: self.on == Surface::Ball,
             aside,
             ball: &ball,
@@ -399,7 +399,7 @@ impl Watched {
 }
 
 impl WatchedContact {
-    fn look(&self, model: &Model, y: &[f64], fault: &Fault, on: Surface) -> DefectView {
+    fn look(&self, model: &Model, y: &[f64], shape: &SurfaceDefect, on: Surface) -> DefectView {
         let [ball, ring] = model.facing(y, self.ball, self.race);
         let seen = ball.seen_from(&ring);
         let n = seen.centre / seen.centre.norm();
@@ -412,9 +412,9 @@ impl WatchedContact {
             _ => (Toward::race(ring.angle_of(seen.direction())), ring.omega),
         };
         DefectView {
-            aside: toward.aside(fault),
-            rate: seen.orbit_speed() - toward.turning(fault, omega),
-            half: toward.half(fault),
+            aside: toward.aside(shape),
+            rate: seen.orbit_speed() - toward.turning(shape, omega),
+            half: toward.half(shape),
         }
     }
 }

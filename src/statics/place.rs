@@ -10,9 +10,9 @@ use serde::{Deserialize, Serialize};
 use super::positions;
 use crate::base::error::{Error, Result};
 use crate::base::quantities;
-use crate::contact::Fault;
+use crate::contact::SurfaceDefect;
 use crate::inspect;
-use crate::model::{BodyId, Dof, Model, Race, ball_fault, compile_placed, race_fault};
+use crate::model::{BodyId, Dof, Model, Race, ball_defect, compile_placed, race_defect};
 use crate::scene::{AxialOffset, Defect, Row, Scene, Surface, TimeFunction, Width};
 
 /// Where the number of a defect's axial place comes from.
@@ -83,7 +83,7 @@ fn in_nanometres(number: f64) -> f64 {
 /// Gives a defect between steep walls the fault circles that unload a contact of a half-width \[m\] as solids do (model section 15.5).
 fn wall(name: &str, defect: &mut Defect, row: &Row, half_width: Option<f64>) -> Result<()> {
     let half = half_width.ok_or_else(|| {
-        let allowed = "absent, since no loaded contact meets the defect at equilibrium: give width and edge_radius of its fault \
+        let allowed = "absent, since no loaded contact meets the defect at equilibrium: give width and edge_radius of its defect \
                        circles";
         Error::scene(format!("defects.{name}.walls"), "steep", allowed)
     })?;
@@ -164,16 +164,16 @@ impl DefectPasses {
     }
 
     /// A pit, compiled, with the load \[N\] of that contact and its race.
-    pub fn pit(&self, defect: &Defect) -> Option<(Fault, f64, Race)> {
+    pub fn pit(&self, defect: &Defect) -> Option<(SurfaceDefect, f64, Race)> {
         let (load, race) = self.heaviest()?;
         let row = &self.model.rows[defect.row];
         let geometry = &self.model.scene().rows[defect.row];
-        let fault = if defect.on == Surface::Ball {
-            ball_fault(defect, geometry.ball_diameter / 2.0, &row.hertz)
+        let defect = if defect.on == Surface::Ball {
+            ball_defect(defect, geometry.ball_diameter / 2.0, &row.hertz)
         } else {
-            race_fault(defect, geometry, (&row.pairs[race], &row.hertz[race]))
+            race_defect(defect, geometry, (&row.pairs[race], &row.hertz[race]))
         };
-        Some((fault, load, race))
+        Some((defect, load, race))
     }
 
     /// Half-width of that contact along rolling \[m\].

@@ -81,7 +81,7 @@ impl<const N: usize> ContactMatrix<N> {
                 };
             }
         }
-        for (race, ball) in self.search.faulted() {
+        for (race, ball) in self.search.defective() {
             self.meetings[ball][race] = Met::Faulted;
         }
         self.active = 0;

@@ -46,7 +46,7 @@ fn hertz_force(slices: ZoneSlices, approach: f64, angle: f64) -> (f64, Hertz) {
         waves: Waves::default(),
         law: Law::elastic(Elastic::Hertz(law)),
         slices,
-        faults: Vec::new(),
+        defects: Vec::new(),
     };
     let reach = r - radius + approach;
     let mut total = Total::default();

@@ -116,7 +116,7 @@ fn faulted_contacts_converge() {
             }
             let worst = errors.iter().copied().fold(0.0, f64::max);
             println!(
-                "{law:?} faulted m = {m}: rms {:.1e}, worst {worst:.1e}",
+                "{law:?} defective m = {m}: rms {:.1e}, worst {worst:.1e}",
                 rms(&errors)
             );
             if m >= 6 {

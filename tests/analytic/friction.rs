@@ -4,7 +4,7 @@ use crate::common;
 use ballrace::contact::hertz::Hertz;
 use ballrace::contact::iso16281::Iso16281;
 use ballrace::contact::{
-    BallSide, Damping, Elastic, Fault, Law, Motion, Pair, Rules, Shape, Sink, Torus, Touch,
+    BallSide, Damping, Elastic, Law, Motion, Pair, Rules, Shape, Sink, SurfaceDefect, Torus, Touch,
     Traction, Waves, ZoneSlices,
 };
 use ballrace::dynamics::contributions;
@@ -78,7 +78,7 @@ impl Case {
                     ..Law::elastic(elastic)
                 },
                 slices: ZoneSlices::Fixed(10),
-                faults: Vec::new(),
+                defects: Vec::new(),
             },
         }
     }
@@ -125,9 +125,9 @@ fn hertz() -> Hertz {
 }
 
 /// A spall of 1 mm under the ball, from −z of some place on.
-fn spall(end: f64) -> Fault {
+fn spall(end: f64) -> SurfaceDefect {
     let defect = Defect::new(Surface::OuterRace, 0.0, 6e-3, 1e-3, 0.3e-3).at_offset(0.0);
-    Fault::new(&defect, end - 3e-3, 36e-3)
+    SurfaceDefect::new(&defect, end - 3e-3, 36e-3)
 }
 
 fn random(law: Elastic, noise: &mut Noise, angles: [f64; 2]) -> Case {
@@ -167,7 +167,7 @@ impl Family {
                 if self.cut {
                     let race = &case.pair.race;
                     let middle = case.z / (race.r - RADIUS) * race.r;
-                    case.pair.faults = vec![spall(middle + noise.between(-4e-4, 4e-4))];
+                    case.pair.defects = vec![spall(middle + noise.between(-4e-4, 4e-4))];
                 }
                 worst = worst.max(size(case.error(nodes, finer)));
             }

@@ -235,7 +235,7 @@ fn edges_do_not_jump_and_narrow_defects_vanish() {
                 let mut defect = spall(on, width).at_offset(0.0);
                 defect.ball = defect.ball.map(|_| 0);
                 scene.defects.insert("d".into(), defect);
-                let faulted = compile(&scene).unwrap();
+                let defective = compile(&scene).unwrap();
                 let pitch = 30e-3;
                 // Ball defect: the ball turns at rest; ring defect: the ball travels.
                 let at = |model: &Model, arc: f64| match on {
@@ -246,11 +246,11 @@ fn edges_do_not_jump_and_narrow_defects_vanish() {
                 let size = at(&whole, 0.0).1[race];
                 assert!(size > 500.0);
                 let steps = 1000;
-                let mut before = at(&faulted, -1.2e-3);
+                let mut before = at(&defective, -1.2e-3);
                 let mut deepest = 1.0_f64;
                 for k in 1..=steps {
                     let arc = -1.2e-3 + 2.4e-3 * f64::from(k) / f64::from(steps);
-                    let now = at(&faulted, arc);
+                    let now = at(&defective, arc);
                     // A continuous force: 2.4 µm of travel cannot change it by more than this.
                     let jump = now
                         .0
@@ -279,7 +279,7 @@ fn edges_do_not_jump_and_narrow_defects_vanish() {
 }
 
 /// Analytic: from equilibrium the healthy bearing starts calmly. Its first ball pass has under 1 % of the rolling start's
-/// rms acceleration and under 10 % of the faulted signal's, without thrust and at +3 kN.
+/// rms acceleration and under 10 % of the defective signal's, without thrust and at +3 kN.
 #[test]
 fn equilibrium_start_is_calm() {
     // 6.3 ms: one ball pass at 30 Hz.
@@ -304,12 +304,12 @@ fn equilibrium_start_is_calm() {
         healthy.defects.clear();
         let calm = pass(&healthy, Start::Equilibrium, 6.3e-3);
         let rolling = pass(&healthy, Start::Rolling, 6.3e-3);
-        let faulted = pass(&loaded, Start::Equilibrium, 26.3e-3);
+        let defective = pass(&loaded, Start::Equilibrium, 26.3e-3);
         println!(
-            "first pass at {axial_load} N: {calm:.3} equilibrium, {rolling:.1} rolling, {faulted:.1} faulted (m/s² rms)"
+            "first pass at {axial_load} N: {calm:.3} equilibrium, {rolling:.1} rolling, {defective:.1} defective (m/s² rms)"
         );
         assert!(calm < 0.01 * rolling, "{calm} {rolling}");
-        assert!(calm < 0.1 * faulted, "{calm} {faulted}");
+        assert!(calm < 0.1 * defective, "{calm} {defective}");
     }
 }
 

@@ -20,7 +20,7 @@ use ballrace::contact::Shape;
 use ballrace::contact::hertz::Hertz;
 use ballrace::contact::iso16281::Iso16281;
 use ballrace::contact::{
-    BallSide, Elastic, Fault, Law, Motion, Pair, Sink, Torus, Touch, Waves, ZoneSlices,
+    BallSide, Elastic, Law, Motion, Pair, Sink, SurfaceDefect, Torus, Touch, Waves, ZoneSlices,
 };
 use ballrace::scene::{Defect, Material, Surface};
 use common::meets;
@@ -215,7 +215,7 @@ fn iso_pair(sigma: f64, d: f64, pitch: f64, conformity: f64) -> Pair {
         waves: Waves::default(),
         law: Law::elastic(Elastic::Iso16281(Iso16281::new(3.5948e10, 0.5, d))),
         slices: ZoneSlices::Fixed(20_001),
-        faults: Vec::new(),
+        defects: Vec::new(),
     }
 }
 
@@ -258,7 +258,7 @@ fn sink_over_a_sharp_slot() {
         )
         .at_offset(0.0);
         let open = Pair {
-            faults: vec![Fault::new(&slot, 0.0, race)],
+            defects: vec![SurfaceDefect::new(&slot, 0.0, race)],
             ..healthy.clone()
         };
         // How deep the ball goes from where it would touch the race until the edges bear.

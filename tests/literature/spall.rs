@@ -13,7 +13,7 @@ use common::{meets, run};
 /// A ball of a Koyo 1205 (one row, no clearance, no cage) at the load line comes to a spall of a width \[m\] on a
 /// race. The time from entry to impact over the published formula.
 ///
-/// Entry: the ball's load on the faulted race has fallen by 0.5 %. Impact: the ball has left both races, and a blow
+/// Entry: the ball's load on the defective race has fallen by 0.5 %. Impact: the ball has left both races, and a blow
 /// reaches the other one.
 fn time_to_impact(on: Surface, width: f64, shaft: f64, radial: f64) -> f64 {
     let (d, pitch, fs) = (7.12e-3, 38.5e-3, 1e6);
@@ -73,13 +73,13 @@ fn time_to_impact(on: Surface, width: f64, shaft: f64, radial: f64) -> f64 {
     } else {
         ["inner", "outer"]
     };
-    let [faulted, other] = races.map(|race| out.get(&format!("c.ball0.{race}.load")).unwrap());
+    let [defective, other] = races.map(|race| out.get(&format!("c.ball0.{race}.load")).unwrap());
     let first =
         |from: usize, is: &dyn Fn(usize) -> bool| (from..out.t.len()).find(|&k| is(k)).unwrap();
     // Samples are 1 µs; a tenth of the formula's time before the edge the race is still whole.
-    let before = faulted[first(0, &|k| out.t[k] >= 0.9 * expected)];
-    let entry = first(0, &|k| faulted[k] < 0.995 * before);
-    let free = first(entry, &|k| faulted[k] == 0.0 && other[k] == 0.0);
+    let before = defective[first(0, &|k| out.t[k] >= 0.9 * expected)];
+    let entry = first(0, &|k| defective[k] < 0.995 * before);
+    let free = first(entry, &|k| defective[k] == 0.0 && other[k] == 0.0);
     let impact = first(free, &|k| other[k] > 0.0);
     let time = out.t[impact] - out.t[entry];
     println!(

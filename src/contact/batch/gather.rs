@@ -24,7 +24,7 @@ pub(crate) struct Places<'a> {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Near {
     pub touching: Mask,
-    pub faulted: Mask,
+    pub defective: Mask,
     pub raise: Raise<Lanes>,
     pub swell: Option<Raise<Lanes>>,
     pub lost: Mask,
@@ -203,22 +203,22 @@ impl Pair {
             let [touching, lost] = self.near_shape(balls.radius, d - raise.height, z);
             (touching, lost)
         };
-        let mut faulted = Mask::default();
-        if !self.faults.is_empty() && touching.any() {
-            for fault in &self.faults {
+        let mut defective = Mask::default();
+        if !self.defects.is_empty() && touching.any() {
+            for defect in &self.defects {
                 let Sight {
                     middle: [cos, sin],
                     bound,
-                } = fault.sight(ring.theta);
-                faulted = faulted.or((x * cos + y * sin).above(d * bound));
+                } = defect.sight(ring.theta);
+                defective = defective.or((x * cos + y * sin).above(d * bound));
             }
         }
         if !self.goes_by_eights() {
-            faulted = touching;
+            defective = touching;
         }
         Near {
             touching,
-            faulted: faulted.and(touching),
+            defective: defective.and(touching),
             raise,
             swell,
             lost,

@@ -356,7 +356,7 @@ mod tests {
                     2.0 * radius,
                 ))),
                 slices: ZoneSlices::Fitted(rules.clone()),
-                faults: Vec::new(),
+                defects: Vec::new(),
             };
             let place = BallInGroove {
                 pair: &pair,

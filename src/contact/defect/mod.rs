@@ -27,7 +27,7 @@ const MARGIN: f64 = 1.01;
 
 /// A defect of a surface, compiled: places in the frame of its body.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Fault {
+pub struct SurfaceDefect {
     /// Angular place on the body \[rad\].
     pub angle: f64,
     /// Axial place of the middle, in the ring's frame or from the ball's centre \[m\].
@@ -40,7 +40,7 @@ pub struct Fault {
     pub coat: f64,
     /// Depth and number of the recessed circles.
     pub floor: Option<(f64, usize)>,
-    /// The largest half-angle, and a little more: a contact further away never sees the fault \[rad\]. Of a cap while its ball is as at
+    /// The largest half-angle, and a little more: a contact further away never sees the defect \[rad\]. Of a cap while its ball is as at
     /// the start.
     pub reach: f64,
     width: Width,
@@ -54,7 +54,7 @@ pub(crate) struct Sight {
     pub bound: f64,
 }
 
-impl Fault {
+impl SurfaceDefect {
     /// A defect whose middle lies at `middle` on a surface whose least radius there is `radius` \[m\].
     pub fn new(defect: &Defect, middle: f64, radius: f64) -> Self {
         Self {
@@ -91,7 +91,7 @@ impl Fault {
         Some((cap, ball.carried(&cap.pole(self.angle, self.middle))))
     }
 
-    /// Whether another fault is this one's mirror image about the plane at half of `sum` along z, to a rounding
+    /// Whether another defect is this one's mirror image about the plane at half of `sum` along z, to a rounding
     /// \[m\].
     pub(crate) fn is_image(&self, other: &Self, sum: f64, rounding: f64) -> bool {
         let image = Self {
@@ -106,7 +106,7 @@ impl Fault {
             && *self == image
     }
 
-    /// The directions of contacts that may see the fault, while its body is turned by an angle.
+    /// The directions of contacts that may see the defect, while its body is turned by an angle.
     pub(crate) fn sight(&self, turned: f64) -> Sight {
         let (sin, cos) = (self.angle + turned).sin_cos();
         Sight {
@@ -116,7 +116,7 @@ impl Fault {
         }
     }
 
-    /// Whether a contact in this direction may see the fault.
+    /// Whether a contact in this direction may see the defect.
     pub(crate) fn in_reach(&self, toward: &Toward) -> bool {
         match toward.pole(self) {
             None => toward.aside(self).abs() <= self.reach,
@@ -140,7 +140,7 @@ impl Fault {
     }
 
     /// Whether the surface is absent at an axial place where it has this radius, in a direction this far from the
-    /// fault's own \[rad\]; `ball` is the orientation of the ball that has it.
+    /// defect's own \[rad\]; `ball` is the orientation of the ball that has it.
     pub(crate) fn covers(&self, z: f64, radius: f64, aside: f64, ball: &Motion) -> bool {
         if let Some(pit) = &self.pit {
             return aside.abs() <= pit.span;
@@ -287,11 +287,11 @@ impl Arc {
 }
 
 /// The absent arc around a direction at an axial place; none where the surface is whole.
-pub fn absent(faults: &[Fault], at: &Station, toward: &Toward) -> Option<Arc> {
+pub fn absent(defects: &[SurfaceDefect], at: &Station, toward: &Toward) -> Option<Arc> {
     let mut around: Option<Arc> = None;
     loop {
         let mut grows = false;
-        for arc in faults.iter().filter_map(|fault| fault.arc(at, toward)) {
+        for arc in defects.iter().filter_map(|defect| defect.arc(at, toward)) {
             let (low, high) = around.map_or((0.0, 0.0), |a| (a.low.angle, a.high.angle));
             if arc.low.angle > high || arc.high.angle < low {
                 continue;
@@ -306,7 +306,7 @@ pub fn absent(faults: &[Fault], at: &Station, toward: &Toward) -> Option<Arc> {
             }
         }
         // What has grown may have reached others.
-        if !grows || faults.len() == 1 {
+        if !grows || defects.len() == 1 {
             return around;
         }
     }
@@ -314,17 +314,17 @@ pub fn absent(faults: &[Fault], at: &Station, toward: &Toward) -> Option<Arc> {
 
 /// The recessed circles within an absent arc: edge data and depth of each.
 pub fn floors<'a>(
-    faults: &'a [Fault],
+    defects: &'a [SurfaceDefect],
     at: Station,
     toward: Toward<'a>,
     whole: &Arc,
 ) -> impl Iterator<Item = (Edge, f64)> + use<'a> {
     let (low, high) = (whole.low.angle, whole.high.angle);
-    let floored = faults
+    let floored = defects
         .iter()
-        .filter_map(|fault| Some((fault, fault.floor?)));
-    floored.flat_map(move |(fault, (depth, count))| {
-        let arc = fault
+        .filter_map(|defect| Some((defect, defect.floor?)));
+    floored.flat_map(move |(defect, (depth, count))| {
+        let arc = defect
             .arc(&at, &toward)
             .filter(|arc| arc.low.angle >= low && arc.high.angle <= high);
         arc.into_iter().flat_map(move |arc| {

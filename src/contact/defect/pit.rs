@@ -3,13 +3,13 @@
 
 use nalgebra::Vector3;
 
-use super::Fault;
+use super::SurfaceDefect;
 use super::hole::{Hole, PittedContact, Yield};
 use crate::contact::hertz::Hertz;
 use crate::contact::{Motion, wrapped};
 use crate::scene::Defect;
 
-/// A pit, compiled; its place is that of its [`Fault`].
+/// A pit, compiled; its place is that of its [`SurfaceDefect`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::contact) struct Pit {
     pub hole: Hole,
@@ -25,17 +25,17 @@ pub(in crate::contact) struct Pit {
 pub(crate) const MOST_PITS: usize = 4;
 
 /// How many pits of a race one contact may meet at once.
-pub(crate) fn pits_at_once(faults: &[Fault]) -> usize {
-    let pits = faults.iter().filter(|fault| fault.is_pit());
-    let beyond = |one: &Fault, other: &Fault| {
+pub(crate) fn pits_at_once(defects: &[SurfaceDefect]) -> usize {
+    let pits = defects.iter().filter(|defect| defect.is_pit());
+    let beyond = |one: &SurfaceDefect, other: &SurfaceDefect| {
         let apart = wrapped(other.angle - one.angle);
         (0.0..=one.reach + other.reach).contains(&apart)
     };
-    let from = |one: &Fault| pits.clone().filter(|other| beyond(one, other)).count();
+    let from = |one: &SurfaceDefect| pits.clone().filter(|other| beyond(one, other)).count();
     pits.clone().map(from).max().unwrap_or(0)
 }
 
-impl Fault {
+impl SurfaceDefect {
     /// A pit whose middle lies at `middle` on a surface of a radius there \[m\], met by contacts of these kinds with the outer and the inner
     /// race, that are so wide under eight times a typical load \[m\].
     pub(crate) fn pit(

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::Fault;
+use super::SurfaceDefect;
 use super::cap::Cap;
 use crate::contact::{Motion, V2, cross, wrapped};
 
@@ -37,14 +37,14 @@ impl<'a> Toward<'a> {
     }
 
     /// A ball's defect that is a cap, and the direction e of that.
-    pub(super) fn pole(&self, fault: &Fault) -> Option<(Cap, Vector3<f64>)> {
-        fault.pole(self.ball?)
+    pub(super) fn pole(&self, defect: &SurfaceDefect) -> Option<(Cap, Vector3<f64>)> {
+        defect.pole(self.ball?)
     }
 
     /// The direction e of a ball's defect that is round: a cap or a pit.
-    fn middle(&self, fault: &Fault) -> Option<Vector3<f64>> {
-        let cap = self.pole(fault).map(|(_, e)| e);
-        cap.or_else(|| fault.pit_pole(self.ball?))
+    fn middle(&self, defect: &SurfaceDefect) -> Option<Vector3<f64>> {
+        let cap = self.pole(defect).map(|(_, e)| e);
+        cap.or_else(|| defect.pit_pole(self.ball?))
     }
 
     /// The angle from here to a direction e of the ball \[rad\].
@@ -53,25 +53,25 @@ impl<'a> Toward<'a> {
     }
 
     /// How far it is from a defect's middle \[rad\].
-    pub fn aside(&self, fault: &Fault) -> f64 {
-        match self.middle(fault) {
-            None => wrapped(self.angle - fault.angle),
+    pub fn aside(&self, defect: &SurfaceDefect) -> f64 {
+        match self.middle(defect) {
+            None => wrapped(self.angle - defect.angle),
             Some(e) => -self.aside_of(&e),
         }
     }
 
     /// Half of the angle over which a defect may be met \[rad\].
-    pub fn half(&self, fault: &Fault) -> f64 {
-        match (self.pole(fault), &fault.pit) {
+    pub fn half(&self, defect: &SurfaceDefect) -> f64 {
+        match (self.pole(defect), &defect.pit) {
             (Some((cap, e)), _) => cap.widest(&e),
             (None, Some(pit)) => pit.span,
-            (None, None) => fault.reach / super::MARGIN,
+            (None, None) => defect.reach / super::MARGIN,
         }
     }
 
     /// How fast a defect turns about the ring's axis \[rad/s\], of a body with this angular speed about it.
-    pub fn turning(&self, fault: &Fault, omega: f64) -> f64 {
-        match (self.middle(fault), self.ball) {
+    pub fn turning(&self, defect: &SurfaceDefect, omega: f64) -> f64 {
+        match (self.middle(defect), self.ball) {
             (Some(e), Some(ball)) => omega - ball.across.dot(&e.xy()) * e.z / e.xy().norm_squared(),
             _ => omega,
         }

@@ -58,7 +58,7 @@ fn the_slope_is_the_kernels() {
                 waves: Waves::default(),
                 law,
                 slices: ZoneSlices::Fixed(10),
-                faults: Vec::new(),
+                defects: Vec::new(),
             };
             let lanes = state(Lanes::all, velocity.map(Lanes::all));
             let force = kernel::force::<_, false, false, true, false>(&law, &lanes, Lanes::ZERO);

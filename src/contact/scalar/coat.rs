@@ -36,8 +36,8 @@ impl Pair {
         if let Some(oiled) = &self.law.film {
             self.race.r = oiled.bare_radius - thickness;
         }
-        for fault in &mut self.faults {
-            fault.coat = thickness;
+        for defect in &mut self.defects {
+            defect.coat = thickness;
         }
     }
 }

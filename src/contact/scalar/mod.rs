@@ -19,8 +19,8 @@ use super::laws::traction::Rolling;
 use super::profile::{Before, Meeting, RaceSurface, Raise, Section};
 use super::slip::{Moves, Slip};
 use super::{
-    Cut, Fault, FilmEffect, FilmNumbers, Law, Motion, OilTouch, Oiled, Sink, Torus, Touch, Toward,
-    V2, Waves, ZoneSlices, turned,
+    Cut, FilmEffect, FilmNumbers, Law, Motion, OilTouch, Oiled, Sink, SurfaceDefect, Torus, Touch,
+    Toward, V2, Waves, ZoneSlices, turned,
 };
 
 /// What all contacts of a row's balls with one race share.
@@ -37,7 +37,7 @@ pub struct Pair {
     /// Slices or nodes of a contact.
     pub slices: ZoneSlices,
     /// Defects of the race, in the ring's frame.
-    pub faults: Vec<Fault>,
+    pub defects: Vec<SurfaceDefect>,
 }
 
 /// What belongs to the ball.
@@ -48,7 +48,7 @@ pub struct BallSide {
     /// Its texture, around the ring's axis.
     pub waves: Waves,
     /// Defects of the ball, in its frame.
-    pub faults: Vec<Fault>,
+    pub defects: Vec<SurfaceDefect>,
 }
 
 impl BallSide {
@@ -57,13 +57,13 @@ impl BallSide {
         Self {
             radius,
             waves: Waves::default(),
-            faults: Vec::new(),
+            defects: Vec::new(),
         }
     }
 
     /// Whether it is smooth and has no defect.
     pub(crate) fn is_whole(&self) -> bool {
-        self.waves.is_round() && self.faults.is_empty()
+        self.waves.is_round() && self.defects.is_empty()
     }
 }
 
@@ -101,7 +101,7 @@ impl Pair {
             return;
         }
         let n = apart / distance;
-        let needs_angle = !(self.waves.is_round() && self.faults.is_empty() && ball.is_whole());
+        let needs_angle = !(self.waves.is_round() && self.defects.is_empty() && ball.is_whole());
         let angle = if needs_angle { seen.direction() } else { 0.0 };
         let raise = self.waves.raise(r.angle_of(angle));
         let swell = ball.waves.raise(b.angle_of(self.outwards(angle)));
@@ -195,12 +195,12 @@ impl Pair {
         } = *facing;
         let on_ring = r.angle_of(angle);
         let toward = Toward::ball(b, n * self.race.sigma, self.outwards(angle));
-        let is_arc = |fault: &&Fault| !fault.is_pit();
+        let is_arc = |defect: &&SurfaceDefect| !defect.is_pit();
         let on_race = Toward::race(on_ring);
-        let mut arcs = self.faults.iter().filter(is_arc);
-        let ring_open = arcs.any(|fault| fault.in_reach(&on_race));
-        let mut arcs = ball.faults.iter().filter(is_arc);
-        let ball_near = arcs.any(|fault| fault.in_reach(&toward));
+        let mut arcs = self.defects.iter().filter(is_arc);
+        let ring_open = arcs.any(|defect| defect.in_reach(&on_race));
+        let mut arcs = ball.defects.iter().filter(is_arc);
+        let ball_near = arcs.any(|defect| defect.in_reach(&toward));
         OneContact {
             pair: self,
             race: self.race,
@@ -217,7 +217,7 @@ impl Pair {
             swell,
             ring_open,
             // A ring edge is met in another direction than the race.
-            ball_open: ball_near || ring_open && ball.faults.iter().any(|f| is_arc(&f)),
+            ball_open: ball_near || ring_open && ball.defects.iter().any(|f| is_arc(&f)),
             yields: Yield::default(),
             slip: None,
             middle: 0.0,
@@ -239,7 +239,7 @@ impl Pair {
     /// Whether a defect of the race may be met at an angle from the ring's mark \[rad\].
     pub(super) fn is_near(&self, angle: f64) -> bool {
         let toward = Toward::race(angle);
-        self.faults.iter().any(|fault| fault.in_reach(&toward))
+        self.defects.iter().any(|defect| defect.in_reach(&toward))
     }
 
     /// How the ball moves against the ring.

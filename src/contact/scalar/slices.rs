@@ -12,7 +12,7 @@ use super::OneContact;
 use crate::contact::defect::Station;
 use crate::contact::profile::{Chord, Ends, Section, Zone};
 use crate::contact::quadrature::MOST;
-use crate::contact::{Fault, Rules, Sink, Toward, ZoneSlices};
+use crate::contact::{Rules, Sink, SurfaceDefect, Toward, ZoneSlices};
 
 /// To which body an axial end of a defect belongs.
 #[derive(Clone, Copy, PartialEq)]
@@ -211,20 +211,22 @@ impl OneContact<'_> {
     /// Places ζ where defects of the race end, of those that are wanted.
     fn ends_on_race(
         &self,
-        wanted: impl Fn(&Fault) -> bool + Clone,
+        wanted: impl Fn(&SurfaceDefect) -> bool + Clone,
     ) -> impl Iterator<Item = f64> + Clone {
         let dz = self.z;
-        let faults = self.pair.faults.iter();
-        faults
-            .filter(move |fault| wanted(fault))
-            .flat_map(Fault::ends)
+        let defects = self.pair.defects.iter();
+        defects
+            .filter(move |defect| wanted(defect))
+            .flat_map(SurfaceDefect::ends)
             .map(move |z| z - dz)
     }
 
     /// Places ζ where defects of the ball end.
     fn ends_on_ball(&self) -> impl Iterator<Item = f64> + Clone {
-        let faults = self.ball.faults.iter();
-        faults.filter(|_| self.ball_open).flat_map(Fault::ends)
+        let defects = self.ball.defects.iter();
+        defects
+            .filter(|_| self.ball_open)
+            .flat_map(SurfaceDefect::ends)
     }
 
     fn fixed<S: Sink + ?Sized>(&self, line: &Line, count: usize, sink: &mut S) {
@@ -255,7 +257,7 @@ impl OneContact<'_> {
         let cuts = shoulders
             .into_iter()
             .map(|z| z - dz)
-            .chain(self.ends_on_race(|fault| fault.in_reach(&toward)))
+            .chain(self.ends_on_race(|defect| defect.in_reach(&toward)))
             .chain(self.ends_on_ball())
             .chain(self.crossings())
             .filter_map(|zeta| line.u(zeta));

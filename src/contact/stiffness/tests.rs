@@ -24,7 +24,7 @@ fn pair(sigma: f64, hertz: bool, slices: ZoneSlices, waves: Waves) -> Pair {
         waves,
         law: Law::elastic(elastic),
         slices,
-        faults: Vec::new(),
+        defects: Vec::new(),
     }
 }
 

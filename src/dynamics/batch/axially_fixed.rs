@@ -55,10 +55,10 @@ impl AxiallyFixedRow {
             must_look: compiled
                 .pairs
                 .iter()
-                .any(|pair| !pair.waves.is_round() || !pair.faults.is_empty())
+                .any(|pair| !pair.waves.is_round() || !pair.defects.is_empty())
                 || balls
                     .clone()
-                    .any(|j| !model.balls[j].side.faults.is_empty()),
+                    .any(|j| !model.balls[j].side.defects.is_empty()),
         })
     }
 
@@ -86,7 +86,7 @@ impl AxiallyFixedRow {
             let (balls, ring) = (row.balls(), &view.ring);
             let seen = |j: usize| view.ball(j).seen_from(ring);
             for (j, whole) in balls.clone().zip(&mut side.whole) {
-                *whole = f64::from(model.balls[j].side.faults.is_empty());
+                *whole = f64::from(model.balls[j].side.defects.is_empty());
             }
             if !pair.waves.is_round() {
                 for (j, (height, slope)) in balls.zip(side.raise.iter_mut().zip(&mut side.slope)) {
@@ -94,8 +94,8 @@ impl AxiallyFixedRow {
                     (*height, *slope) = (raise.height, raise.slope);
                 }
             }
-            for fault in &pair.faults {
-                let Sight { middle, bound } = fault.sight(ring.theta);
+            for defect in &pair.defects {
+                let Sight { middle, bound } = defect.sight(ring.theta);
                 let balls = row.balls();
                 for (j, whole) in balls.zip(&mut side.whole) {
                     let apart = seen(j).centre;

@@ -15,7 +15,7 @@ pub(super) struct Neighbours {
     /// Which lanes are balls.
     filled: Mask,
     /// Which of them have defects of their own.
-    faulted: Mask,
+    defective: Mask,
     /// Whether they have a texture.
     textured: bool,
     /// Constants of their contacts with the outer and with the inner race.
@@ -36,7 +36,7 @@ impl Neighbours {
             first,
             radius: Lanes::from_fn(|i| model.balls[lane(i)].side.radius),
             filled: Mask::from_fn(|i| i < count),
-            faulted: Mask::from_fn(|i| !model.balls[lane(i)].side.faults.is_empty()),
+            defective: Mask::from_fn(|i| !model.balls[lane(i)].side.defects.is_empty()),
             textured: model.has_textured_balls(&model.rows[row]),
             constants: Race::BOTH.map(|race| {
                 let mut all = Constants::default();
@@ -131,10 +131,10 @@ impl Task for Find<'_> {
                 if !touching.any() {
                     continue;
                 }
-                let faulted = near.faulted.or(stretch.faulted).and(touching);
+                let defective = near.defective.or(stretch.defective).and(touching);
                 let stiffness = batch.stiffness[stretch.row][race];
                 if let Some((stiffness, forces)) = stiffness.zip(forces.as_deref_mut()) {
-                    let skip = faulted.or(touching.not());
+                    let skip = defective.or(touching.not());
                     let [v_x, v_y, v_z] = stretch.along(v);
                     let eight = EightContacts {
                         constants: stretch.constants[race],
@@ -160,7 +160,7 @@ impl Task for Find<'_> {
                         forces.add_eight(ball, Dof::Theta, moment);
                     }
                     batch.pulls += found.pulls;
-                    let left_out = found.left_out.or(faulted).and(touching);
+                    let left_out = found.left_out.or(defective).and(touching);
                     if left_out.any() {
                         for lane in left_out.lanes() {
                             batch.singles.push(Single::new(race, stretch.first + lane));
@@ -170,7 +170,7 @@ impl Task for Find<'_> {
                 }
                 for lane in touching.lanes() {
                     let ball = stretch.first + lane;
-                    if faulted.lane(lane) {
+                    if defective.lane(lane) {
                         batch.singles.push(Single::new(race, ball));
                     } else {
                         let raise = near.raise.of(lane);

@@ -291,7 +291,7 @@ impl Batch {
     }
 
     /// Race and ball of the contacts that may see a defect, as last found.
-    pub fn faulted(&self) -> impl Iterator<Item = (Race, usize)> {
+    pub fn defective(&self) -> impl Iterator<Item = (Race, usize)> {
         self.singles.iter().map(|single| (single.race, single.ball))
     }
 

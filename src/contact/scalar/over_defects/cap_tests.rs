@@ -6,8 +6,8 @@ use super::gradient::tests::{RADIUS, pair};
 use crate::contact::PittedContact;
 use crate::contact::hertz::Hertz;
 use crate::contact::{
-    Aside, BallSide, Damping, Fault, Motion, Pair, Sink, Torus, Touch, Traction, V2, Wrench,
-    ZoneSlices,
+    Aside, BallSide, Damping, Motion, Pair, Sink, SurfaceDefect, Torus, Touch, Traction, V2,
+    Wrench, ZoneSlices,
 };
 use crate::scene::{Defect, Floor, Friction, Material, Surface, WidthProfile};
 
@@ -48,7 +48,7 @@ fn cap(e: &Vector3<f64>, width: f64, floor: Option<Floor>) -> BallSide {
     let mut defect = Defect::cap(e.y.atan2(e.x), width, 0.3e-3);
     defect.floor = floor;
     BallSide {
-        faults: vec![Fault::cap(&defect, RADIUS * e.z, RADIUS)],
+        defects: vec![SurfaceDefect::cap(&defect, RADIUS * e.z, RADIUS)],
         ..BallSide::whole(RADIUS)
     }
 }
@@ -195,7 +195,7 @@ fn forces_and_moments_of_pits_are_the_gradient_of_the_energy() {
         let hertz = Hertz::new(sigma, 2.0 * RADIUS, 60e-3, 0.52, 0.3, &steel, &steel);
         let ball_with = |e: &Vector3<f64>| {
             let defect = Defect::pit(Surface::Ball, e.y.atan2(e.x), 0.3e-3);
-            let mut pit = Fault::pit(
+            let mut pit = SurfaceDefect::pit(
                 &defect,
                 RADIUS * e.z,
                 RADIUS,
@@ -203,7 +203,7 @@ fn forces_and_moments_of_pits_are_the_gradient_of_the_energy() {
             );
             pit.widen(0.4e-3);
             BallSide {
-                faults: vec![pit],
+                defects: vec![pit],
                 ..BallSide::whole(RADIUS)
             }
         };
@@ -341,7 +341,7 @@ fn a_patch_of_the_same_outline_does_the_same() {
         let outline = WidthProfile::new(positions, widths);
         let defect = Defect::new(Surface::Ball, e.y.atan2(e.x), 1.9 * RADIUS, outline, 0.3e-3);
         BallSide {
-            faults: vec![Fault::new(&defect, 0.0, 0.3 * RADIUS)],
+            defects: vec![SurfaceDefect::new(&defect, 0.0, 0.3 * RADIUS)],
             ..BallSide::whole(RADIUS)
         }
     };

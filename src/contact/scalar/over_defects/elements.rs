@@ -121,9 +121,9 @@ impl OneContact<'_> {
     }
 
     pub(super) fn ring_arc(&self, node: &Node) -> Option<Arc> {
-        let faults = &self.pair.faults;
+        let defects = &self.pair.defects;
         if self.ring_open {
-            absent(faults, &node.on_ring(), &Toward::race(self.on_ring))
+            absent(defects, &node.on_ring(), &Toward::race(self.on_ring))
         } else {
             None
         }
@@ -134,7 +134,7 @@ impl OneContact<'_> {
             return None;
         }
         absent(
-            &self.ball.faults,
+            &self.ball.defects,
             &node.on_ball(),
             &self.out_of_ball(direction),
         )
@@ -148,9 +148,9 @@ impl OneContact<'_> {
     /// Places ζ between which caps of the ball have taken away what would meet the race.
     pub(in crate::contact) fn crossings(&self) -> impl Iterator<Item = f64> + Clone {
         let n = self.n * self.race.sigma;
-        let faults = self.ball.faults.iter().filter(|_| self.ball_open);
-        faults
-            .filter_map(move |fault| fault.crossings(self.b, n))
+        let defects = self.ball.defects.iter().filter(|_| self.ball_open);
+        defects
+            .filter_map(move |defect| defect.crossings(self.b, n))
             .flatten()
     }
 
@@ -175,7 +175,7 @@ impl OneContact<'_> {
         let drops = (both, D::NEVER);
         self.feature(node, &RingElement { drops, ..race }, visit);
         let toward = Toward::race(self.on_ring);
-        for (edge, depth) in floors(&self.pair.faults, node.on_ring(), toward, &arc) {
+        for (edge, depth) in floors(&self.pair.defects, node.on_ring(), toward, &arc) {
             let circle = self.ring_circle(node, &edge, depth);
             let drops = (race.s - circle.s, D::NEVER);
             self.feature(node, &RingElement { drops, ..circle }, visit);
@@ -263,7 +263,7 @@ impl OneContact<'_> {
             ..ElementPair::smooth(*feature, node)
         });
         let toward = self.out_of_ball(feature.n_e);
-        for (edge, depth) in floors(&self.ball.faults, node.on_ball(), toward, &arc) {
+        for (edge, depth) in floors(&self.ball.defects, node.on_ball(), toward, &arc) {
             let (drop, circle, tan) = meet(&edge, depth);
             visit(&ElementPair {
                 feature: circle,

@@ -16,7 +16,7 @@ use nalgebra::Vector3;
 
 use crate::contact::defect::{MOST_PITS, Pit, PittedContact, Released, Yield};
 use crate::contact::scalar::{Line, OneContact};
-use crate::contact::{Aside, Fault, Sink, Touch, V2, turned, wrapped};
+use crate::contact::{Aside, Sink, SurfaceDefect, Touch, V2, turned, wrapped};
 
 /// Where a pit lies in a contact, and on which body.
 #[derive(Clone, Copy)]
@@ -74,35 +74,35 @@ impl OneContact<'_> {
         let mut found = [None; MOST_PITS];
         let on_race = self
             .pair
-            .faults
+            .defects
             .iter()
-            .filter_map(|fault| self.on_race(fault));
+            .filter_map(|defect| self.on_race(defect));
         let on_ball = self
             .ball
-            .faults
+            .defects
             .iter()
-            .filter_map(|fault| self.on_ball_of(fault));
+            .filter_map(|defect| self.on_ball_of(defect));
         for (slot, place) in found.iter_mut().zip(on_race.chain(on_ball)) {
             *slot = Some(place);
         }
         found
     }
 
-    fn on_race(&self, fault: &Fault) -> Option<(Pit, PitPlace)> {
-        let pit = fault.pit?;
-        let aside = wrapped(fault.angle - self.on_ring);
-        if aside.abs() > fault.reach {
+    fn on_race(&self, defect: &SurfaceDefect) -> Option<(Pit, PitPlace)> {
+        let pit = defect.pit?;
+        let aside = wrapped(defect.angle - self.on_ring);
+        if aside.abs() > defect.reach {
             return None;
         }
         let (cos, sin) = self.section.normal;
-        let angle = ((fault.middle - self.race.centre) / self.race.r).asin();
+        let angle = ((defect.middle - self.race.centre) / self.race.r).asin();
         let at = [self.race.r * (angle - sin.atan2(cos)), pit.radius * aside];
         let body = PitBody::Race { radius: pit.radius };
         Some((pit, PitPlace { at, body }))
     }
 
-    fn on_ball_of(&self, fault: &Fault) -> Option<(Pit, PitPlace)> {
-        let (pit, e) = (fault.pit?, fault.pit_pole(self.b)?);
+    fn on_ball_of(&self, defect: &SurfaceDefect) -> Option<(Pit, PitPlace)> {
+        let (pit, e) = (defect.pit?, defect.pit_pole(self.b)?);
         let [n_c, along, across] = self.axes();
         if e.dot(&n_c) <= 0.0 {
             return None;
@@ -110,7 +110,7 @@ impl OneContact<'_> {
         let radius = self.ball.radius;
         let at = [radius * e.dot(&along), radius * e.dot(&across)];
         let body = PitBody::Ball(e);
-        (at[1].abs() <= fault.reach * radius).then_some((pit, PitPlace { at, body }))
+        (at[1].abs() <= defect.reach * radius).then_some((pit, PitPlace { at, body }))
     }
 
     /// n_c, τ̂ and t_e.

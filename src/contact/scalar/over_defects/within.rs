@@ -1,11 +1,11 @@
 //! The load of a contact within a defect.
 
-use crate::contact::{BallSide, Fault, Motion, Pair, Sink, Touch};
+use crate::contact::{BallSide, Motion, Pair, Sink, SurfaceDefect, Touch};
 
 /// A defect as a contact sees it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Sighted<'a> {
-    pub fault: &'a Fault,
+    pub defect: &'a SurfaceDefect,
     /// Whether the ball has it, and not the race.
     pub on_ball: bool,
     /// How far the contact's direction is from the defect's \[rad\].
@@ -46,9 +46,12 @@ impl Sink for LoadSum<'_> {
         self.load += touch.normal;
         self.moment += touch.normal * place;
         let Sighted {
-            fault, aside, ball, ..
+            defect,
+            aside,
+            ball,
+            ..
         } = self.defect;
-        if fault.covers(place, radius, *aside, ball) {
+        if defect.covers(place, radius, *aside, ball) {
             self.within += touch.normal;
         }
     }

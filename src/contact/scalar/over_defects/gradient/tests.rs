@@ -7,8 +7,8 @@ use super::*;
 use crate::contact::hertz::Hertz;
 use crate::contact::iso16281::Iso16281;
 use crate::contact::{
-    BallSide, Elastic, Fault, Law, Motion, Pair, Rules, Shape, Torus, Touch, Waves, WrenchSum,
-    ZoneSlices,
+    BallSide, Elastic, Law, Motion, Pair, Rules, Shape, SurfaceDefect, Torus, Touch, Waves,
+    WrenchSum, ZoneSlices,
 };
 use crate::scene::{Defect, Floor, Material, Surface, Waviness, Width, WidthProfile};
 
@@ -63,8 +63,9 @@ pub(in crate::contact::scalar::over_defects) fn pair(
         amplitude: 1e-6,
         phase: 0.4,
     };
-    let fault =
-        |d: &Defect| Fault::new(d, d.axial_offset.number().unwrap(), 30e-3 + sigma * race.r);
+    let compiled = |d: &Defect| {
+        SurfaceDefect::new(d, d.axial_offset.number().unwrap(), 30e-3 + sigma * race.r)
+    };
     Pair {
         race,
         shape: Shape::default(),
@@ -72,7 +73,7 @@ pub(in crate::contact::scalar::over_defects) fn pair(
         law: Law::elastic(elastic),
         // Inside a defect forces like s^{10/9} end within pieces, without a weight for them.
         slices: ZoneSlices::Fitted(Rules::new(24, elastic.exponent())),
-        faults: defect.map(fault).into_iter().collect(),
+        defects: defect.map(compiled).into_iter().collect(),
     }
 }
 
@@ -211,7 +212,7 @@ fn forces_of_pits_are_the_gradient_of_the_energy() {
                 on_race.angle = direction - place[4] + aside / 30e-3;
                 let z = 0.1e-3 + 6.24e-3 * angle.sin() + across;
                 let radius = plain.race.radius(z).unwrap();
-                let mut pitted = Fault::pit(&on_race, z, radius, contacts);
+                let mut pitted = SurfaceDefect::pit(&on_race, z, radius, contacts);
                 pitted.widen(0.3e-3);
                 let facing = if sigma > 0.0 {
                     direction
@@ -220,12 +221,13 @@ fn forces_of_pits_are_the_gradient_of_the_energy() {
                 };
                 let turned = facing - place[3] - aside / RADIUS;
                 let on_ball = Defect::pit(Surface::Ball, turned, 0.2e-3);
-                let mut pit = Fault::pit(&on_ball, RADIUS * angle.sin() - across, RADIUS, contacts);
+                let mut pit =
+                    SurfaceDefect::pit(&on_ball, RADIUS * angle.sin() - across, RADIUS, contacts);
                 pit.widen(0.3e-3);
                 let mut race = pair(sigma, is_hertz, None, 30);
-                race.faults = vec![pitted];
+                race.defects = vec![pitted];
                 let ball = BallSide {
-                    faults: vec![pit],
+                    defects: vec![pit],
                     waves: if is_hertz {
                         wave_of_ball(5)
                     } else {
@@ -235,7 +237,7 @@ fn forces_of_pits_are_the_gradient_of_the_energy() {
                 };
                 let less = at(&race, &ball, place).energy;
                 let smooth = BallSide {
-                    faults: Vec::new(),
+                    defects: Vec::new(),
                     ..ball.clone()
                 };
                 let healthy = at(&pair(sigma, is_hertz, None, 30), &smooth, place).energy;
@@ -259,10 +261,13 @@ fn forces_are_the_gradient_of_the_energy() {
                         let mut worst: f64 = 0.0;
                         for place in places(sigma, on_ball) {
                             let defect = moved(&defect, &place, on_ball);
-                            let fault =
-                                Fault::new(&defect, defect.axial_offset.number().unwrap(), 5e-3);
+                            let compiled = SurfaceDefect::new(
+                                &defect,
+                                defect.axial_offset.number().unwrap(),
+                                5e-3,
+                            );
                             let ball = BallSide {
-                                faults: on_ball.then_some(fault).into_iter().collect(),
+                                defects: on_ball.then_some(compiled).into_iter().collect(),
                                 // Both bodies are wavy, or none.
                                 waves: wave_of_ball(waves / 6),
                                 ..BallSide::whole(RADIUS)

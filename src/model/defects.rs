@@ -1,18 +1,22 @@
 //! Defects of a scene as contacts meet them.
 
 use crate::contact::hertz::Hertz;
-use crate::contact::{Fault, Pair, PittedContact};
+use crate::contact::{Pair, PittedContact, SurfaceDefect};
 use crate::scene::{Defect, Row};
 
 /// A defect of a race, compiled.
-pub(crate) fn race_fault(defect: &Defect, row: &Row, (race, hertz): (&Pair, &Hertz)) -> Fault {
+pub(crate) fn race_defect(
+    defect: &Defect,
+    row: &Row,
+    (race, hertz): (&Pair, &Hertz),
+) -> SurfaceDefect {
     let middle = row.axial_position + offset(defect);
     // Validation keeps the defect's middle inside the groove.
     let radius = race.radius_at(middle).unwrap_or(race.race.a);
     if defect.is_pit() {
-        return Fault::pit(defect, middle, radius, [PittedContact::of(hertz); 2]);
+        return SurfaceDefect::pit(defect, middle, radius, [PittedContact::of(hertz); 2]);
     }
-    Fault::new(defect, middle, least_radius(race, middle, defect.length))
+    SurfaceDefect::new(defect, middle, least_radius(race, middle, defect.length))
 }
 
 /// The least radius of a race over a length about a place \[m\], to the step of a fine grid: one groove has it at an end or in its middle, a
@@ -25,17 +29,17 @@ fn least_radius(race: &Pair, middle: f64, length: f64) -> f64 {
 }
 
 /// A defect of a ball of this radius, compiled, with its contacts with both races.
-pub(crate) fn ball_fault(defect: &Defect, radius: f64, hertz: &[Hertz; 2]) -> Fault {
+pub(crate) fn ball_defect(defect: &Defect, radius: f64, hertz: &[Hertz; 2]) -> SurfaceDefect {
     if defect.is_pit() {
         let contacts = hertz.each_ref().map(PittedContact::of);
-        return Fault::pit(defect, offset(defect), radius, contacts);
+        return SurfaceDefect::pit(defect, offset(defect), radius, contacts);
     }
     if defect.is_cap() {
-        return Fault::cap(defect, offset(defect), radius);
+        return SurfaceDefect::cap(defect, offset(defect), radius);
     }
     let reach = offset(defect).abs() + defect.length / 2.0;
     let slice = (radius * radius - reach * reach).max(0.0).sqrt();
-    Fault::new(defect, offset(defect), slice)
+    SurfaceDefect::new(defect, offset(defect), slice)
 }
 
 fn offset(defect: &Defect) -> f64 {
@@ -45,7 +49,7 @@ fn offset(defect: &Defect) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::race_fault;
+    use super::race_defect;
     use crate::contact::Motion;
     use crate::model::Race;
     use crate::scene::{Defect, Surface, presets};
@@ -65,17 +69,17 @@ mod tests {
                 let row = &model.rows[0];
                 let defect = Defect::new(on, 0.0, length, width, 0.3e-3).at_offset(offset);
                 let pair = &row.pairs[race];
-                let fault = race_fault(&defect, &scene.rows[0], (pair, &row.hertz[race]));
+                let defect = race_defect(&defect, &scene.rows[0], (pair, &row.hertz[race]));
                 let mut widest = 0.0_f64;
                 for k in 0..=1000 {
                     let z = offset + length * (f64::from(k) / 1000.0 - 0.5) * 0.999;
                     let radius = pair.radius_at(z).unwrap();
                     let half = width / (2.0 * radius);
-                    let covers = |aside| fault.covers(z, radius, aside, &Motion::default());
+                    let covers = |aside| defect.covers(z, radius, aside, &Motion::default());
                     assert!(covers(0.999 * half) && !covers(1.001 * half), "{z}");
                     widest = widest.max(half);
                 }
-                let over = fault.reach / widest;
+                let over = defect.reach / widest;
                 assert!((1.0..1.02).contains(&over), "{on:?}, {offset}: {over}");
             }
         }
