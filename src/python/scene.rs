@@ -1,9 +1,10 @@
 //! Scenes as JSON text, read and checked by serde.
 
+use numpy::{IntoPyArray, PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 
 use super::errors::OrRaise;
-use ballrace::scene::presets;
+use ballrace::scene::{TimeFunction, presets};
 use ballrace::{Error, Scene};
 
 /// Read a checked scene from TOML and return it as JSON with every field written out.
@@ -43,6 +44,25 @@ pub(super) fn scene_replace(py: Python<'_>, text: &str, changes: &str) -> PyResu
         .collect();
     let scene = Scene::from_json(text).or_raise(py)?;
     Ok(scene.with(&changes).or_raise(py)?.to_json())
+}
+
+/// The values of a function of time, given as JSON, at times \[s\].
+#[pyfunction]
+pub(super) fn time_values<'py>(
+    py: Python<'py>,
+    function: &str,
+    times: &Bound<'py, PyArray1<f64>>,
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    let function: TimeFunction = serde_json::from_str(function)
+        .map_err(|e| Error::scene("function", function, e.to_string()))
+        .or_raise(py)?;
+    let values: Vec<f64> = times
+        .readonly()
+        .as_array()
+        .iter()
+        .map(|t| function.at(*t))
+        .collect();
+    Ok(values.into_pyarray(py))
 }
 
 /// The preset `wheel_bearing` as JSON.

@@ -160,6 +160,25 @@ def test_a_spline_through_points_is_smooth() -> None:
     assert mean == pytest.approx(500.0 + 300.0 / 4.0, rel=1e-9)
 
 
+def test_values_in_time_are_those_of_the_run() -> None:
+    """Analytic: a ramp, a jump, a sine, points with a jump, a number; at a jump the value after it."""
+    times = [0.0, 0.5, 1.0, 2.0]
+    expected: list[tuple[br.scene.TimeFunction, list[float]]] = [
+        (br.scene.Ramp(from_=0.0, to=4.0, start=0.0, end=1.0), [0.0, 2.0, 4.0, 4.0]),
+        (br.scene.Ramp(from_=0.0, to=4.0, start=1.0, end=1.0), [0.0, 0.0, 4.0, 4.0]),
+        (br.scene.Sine(mean=1.0, amplitude=2.0, frequency=0.5, phase=0.0), [1.0, 3.0, 1.0, 1.0]),
+        (
+            br.scene.Table(times=(0.0, 1.0, 1.0, 3.0), values=(0.0, 1.0, 5.0, 9.0)),
+            [0.0, 0.5, 5.0, 7.0],
+        ),
+        (3.0, [3.0] * 4),
+    ]
+    for function, values in expected:
+        np.testing.assert_allclose(values_at(function, times), values, atol=1e-12)
+    assert values_at(3.0, np.zeros((2, 3))).shape == (2, 3)
+    assert values_at(3.0, 1.0).shape == ()
+
+
 def test_changes_act_on_what_is_read() -> None:
     """Truth: at rest the balls put the load on the outer ring, whose support bears it."""
     simulation = br.Simulation(scene())

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import math
+import json
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .._document import Variant
+from .. import _core
+from .._document import Variant, encode
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -120,26 +121,9 @@ class Spline(Variant, tag="spline"):
 
 def values_at(function: TimeFunction, times: ArrayLike) -> NDArray[np.float64]:
     """Return the values of a function at times [s]; at a jump the one after it."""
-    t = np.asarray(times, float)
-    match function:
-        case Ramp(from_=before, to=after, start=start, end=end):
-            share = (t >= end) if start == end else np.clip((t - start) / (end - start), 0.0, 1.0)
-            found = before + share * (after - before)
-        case Sine(mean=mean, amplitude=amplitude, frequency=frequency, phase=phase):
-            found = mean + amplitude * np.sin(2.0 * math.pi * frequency * t + phase)
-        case Table(times=points, values=values):
-            found = np.interp(t, points, values)
-        case Spline(times=points, values=values, rates=rates):
-            from scipy.interpolate import CubicHermiteSpline
-
-            within = np.clip(t, points[0], points[-1])
-            inside = values[0]
-            if len(points) > 1:
-                inside = CubicHermiteSpline(points, values, rates)(within)
-            found = inside + np.where(t < points[0], rates[0], rates[-1]) * (t - within)
-        case _:
-            found = np.full(t.shape, float(function))
-    return np.asarray(found, np.float64)
+    t = np.asarray(times, np.float64)
+    found = _core.time_values(json.dumps(encode(function, "")), np.ravel(t))
+    return found.reshape(t.shape)
 
 
 TimeFunction = float | Ramp | Sine | Table | Spline
