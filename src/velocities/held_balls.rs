@@ -17,8 +17,8 @@ pub(super) enum Met {
     Nothing,
     /// A race without a defect in reach: how it and the ball are raised.
     Whole([Raise<f64>; 2]),
-    /// Perhaps a defect: evaluated alone.
-    Faulted,
+    /// Perhaps a defect, or a race that is no torus: evaluated by itself.
+    Alone,
 }
 
 /// Up to eight balls that touch something; the last one fills the lanes that are left.
@@ -99,7 +99,7 @@ impl<const N: usize> HeldBalls<N> {
                 contacts: &from_fn(|lane| {
                     let [raise, swell] = match meetings[lane] {
                         Met::Whole(raises) => raises,
-                        Met::Nothing | Met::Faulted => [Raise::default(); 2],
+                        Met::Nothing | Met::Alone => [Raise::default(); 2],
                     };
                     let ball = self.balls[lane];
                     Touching { ball, raise, swell }

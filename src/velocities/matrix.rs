@@ -77,12 +77,12 @@ impl<const N: usize> ContactMatrix<N> {
                 self.meetings[contact.ball][race] = if row.pairs[race].shape.is_torus() {
                     Met::Whole([contact.raise, contact.swell])
                 } else {
-                    Met::Faulted
+                    Met::Alone
                 };
             }
         }
         for (race, ball) in self.search.defective() {
-            self.meetings[ball][race] = Met::Faulted;
+            self.meetings[ball][race] = Met::Alone;
         }
         self.active = 0;
         for class in model.classes() {
