@@ -12,7 +12,7 @@ use crate::base::error::{Error, Result};
 use crate::base::quantities::GIB;
 
 /// What a run may take where the system does not report its memory \[bytes\].
-const UNTOLD: f64 = 8.0 * GIB;
+const UNREPORTED: f64 = 8.0 * GIB;
 /// Share of what there is that a run may set aside: the rest is for stacks, the solver and the caller.
 const SHARE: f64 = 0.9;
 /// Less than the stack of a thread: not worth asking the system, which takes as long as compiling a bearing \[bytes\].
@@ -47,12 +47,12 @@ pub(crate) fn check(needed: f64, what: impl FnOnce() -> String) -> Result<()> {
 /// What a run may set aside now \[bytes\].
 pub fn available() -> f64 {
     let root = Path::new("/");
-    let told = [free(root), address_space(root), control_groups(root)];
-    let least = told.into_iter().flatten().fold(f64::INFINITY, f64::min);
+    let limits = [free(root), address_space(root), control_groups(root)];
+    let least = limits.into_iter().flatten().fold(f64::INFINITY, f64::min);
     let all = if least.is_finite() {
         SHARE * least.max(0.0)
     } else {
-        UNTOLD
+        UNREPORTED
     };
     all.min(PART.get())
 }

@@ -86,15 +86,15 @@ impl Pool {
         progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
         work: impl FnOnce(&mut dyn FnMut(f64) -> ControlFlow<()>) -> T + Send,
     ) -> T {
-        let (told, listen) = mpsc::channel();
+        let (sender, receiver) = mpsc::channel();
         let stop = AtomicBool::new(false);
         let mut result = None;
         self.threads.in_place_scope(|scope| {
             scope.spawn(|_| {
                 // Owned here, so that listening ends with the work.
-                let told = told;
+                let sender = sender;
                 result = Some(work(&mut |share| {
-                    let _ = told.send(share);
+                    let _ = sender.send(share);
                     if stop.load(Ordering::Relaxed) {
                         ControlFlow::Break(())
                     } else {
@@ -102,7 +102,7 @@ impl Pool {
                     }
                 }));
             });
-            for share in &listen {
+            for share in &receiver {
                 if progress(share).is_break() {
                     stop.store(true, Ordering::Relaxed);
                 }

@@ -83,8 +83,8 @@ mod tests {
     #[test]
     fn numbers_have_the_digits_that_matter() {
         let found = [0.0, 0.1 + 0.2, 1234.56, -6.1e-5, 1e300, 20e6, f64::INFINITY].map(number);
-        let told = ["0", "0.3", "1235", "-6.1e-5", "1e300", "2e7", "inf"];
-        assert_eq!(found, told);
+        let expected = ["0", "0.3", "1235", "-6.1e-5", "1e300", "2e7", "inf"];
+        assert_eq!(found, expected);
         let found = [0.1 + 0.2, 0.012_345_678_901_234_5, 1e300, 2.5e-300].map(given);
         assert_eq!(found, ["0.3", "0.0123456789012345", "1e300", "2.5e-300"]);
     }
@@ -100,7 +100,7 @@ mod tests {
     #[test]
     fn times_have_units_of_their_size() {
         let found = [0.0, 1.5, 100.0, 0.012_345_678_9, 3.41e-8, 1e-3, 2.5e-16].map(|t| time(&t));
-        let told = [
+        let expected = [
             "0 s",
             "1.5 s",
             "100 s",
@@ -109,6 +109,6 @@ mod tests {
             "1 ms",
             "2.5e-16 s",
         ];
-        assert_eq!(found, told);
+        assert_eq!(found, expected);
     }
 }

@@ -273,7 +273,7 @@ mod tests {
     /// as reported, of the line and of its family. For the family more is reported, (2 + 1 + 0.5)/√5.25 times, since lines of amplitudes
     /// 2, 1 and 0.5 are taken to vary together. A line without noise has no error, and one below the noise no family.
     #[test]
-    fn a_line_in_noise_is_as_uncertain_as_it_is_told() {
+    fn a_line_in_noise_is_as_uncertain_as_reported() {
         let (scene, fs, count) = (scene(), 20e3, 10_000);
         let outer = faults(&scene.rows[0], None, RingTurns::INNER)[1].order * 30.0;
         let mut uniform = uniform(11);
@@ -302,9 +302,12 @@ mod tests {
             (squares.sum::<f64>() / 99.0).sqrt()
         };
         for (i, factor) in [(0, 1.0), (2, 3.5 / 5.25_f64.sqrt())] {
-            let (spread, told) = (spread(i), mean(i + 1) / factor);
+            let (spread, reported) = (spread(i), mean(i + 1) / factor);
             assert!((spread / theory - 1.0).abs() < 0.2, "{spread} {theory}");
-            assert!((told / theory - 1.0).abs() < 0.15, "{told} {theory}");
+            assert!(
+                (reported / theory - 1.0).abs() < 0.15,
+                "{reported} {theory}"
+            );
         }
         let lost = lines(&scene, &record(100.0), fs);
         assert!(lost("bpfo_se").is_some() && lost("bpfo_harmonics_se").is_none());

@@ -150,7 +150,7 @@ mod tests {
     /// 2σ⁴/n (1 + ρ²)/(1 − ρ²). Over 300 records of 32 turns: the mean error and the share of records within two of
     /// them of the truth (0.95 of Gauss's law, 0.945 of Student's). The kurtosis of the first has √(24/n).
     #[test]
-    fn noise_is_as_uncertain_as_it_is_told() {
+    fn noise_is_as_uncertain_as_reported() {
         let (records, count) = (300, 16_000);
         let mut uniform = uniform(7);
         let mut gauss =
@@ -201,16 +201,16 @@ mod tests {
         let sine: Vec<f64> = (0..1600)
             .map(|i| (std::f64::consts::TAU * f64::from(i) / 100.0).sin())
             .collect();
-        let told = |x: &[f64], batches: &Batches| {
+        let errors_of = |x: &[f64], batches: &Batches| {
             let found = of("", x, Some(batches));
             let errors = found.into_iter().filter(|f| f.name.ends_with("_se"));
             errors.map(|f| f.value).collect::<Vec<_>>()
         };
-        let sure = told(&sine, &Batches::new(1600, [16.0, 57.0]));
+        let sure = errors_of(&sine, &Batches::new(1600, [16.0, 57.0]));
         assert_eq!(sure.len(), 4);
         assert!(sure.iter().all(|e| e.unwrap() < 1e-12), "{sure:?}");
-        assert_eq!(told(&sine, &Batches::none()), [None; 4]);
-        let silent = told(&[0.0; 1600], &Batches::new(1600, [16.0, 57.0]));
+        assert_eq!(errors_of(&sine, &Batches::none()), [None; 4]);
+        let silent = errors_of(&[0.0; 1600], &Batches::new(1600, [16.0, 57.0]));
         assert_eq!(silent, [Some(0.0), Some(0.0), None, None]);
     }
 }

@@ -142,22 +142,22 @@ fn choices<S: Simd>(simd: S) -> Vec<Verdict> {
         let signs: [f64; LANES] = std::array::from_fn(|i| if bit(pattern, i) { -1.0 } else { 1.0 });
         Vector::load(simd, &black_box(signs)).below(zero)
     };
-    let told = |found: super::Choice<S>, wanted: &dyn Fn(usize) -> bool| {
+    let selects = |found: super::Choice<S>, wanted: &dyn Fn(usize) -> bool| {
         found.lanes().eq((0..lanes).filter(|i| wanted(*i)))
     };
     let all = |right: &dyn Fn(u32) -> bool| patterns(lanes).all(right);
     let other = 0b0110_1010;
     vec![
         ("any", all(&|p| choice(p).any() == (p != 0))),
-        ("lanes", all(&|p| told(choice(p), &|i| bit(p, i)))),
-        ("not", all(&|p| told(choice(p).not(), &|i| !bit(p, i)))),
+        ("lanes", all(&|p| selects(choice(p), &|i| bit(p, i)))),
+        ("not", all(&|p| selects(choice(p).not(), &|i| !bit(p, i)))),
         (
             "and",
-            all(&|p| told(choice(p).and(choice(other)), &|i| bit(p & other, i))),
+            all(&|p| selects(choice(p).and(choice(other)), &|i| bit(p & other, i))),
         ),
         (
             "or",
-            all(&|p| told(choice(p).or(choice(other)), &|i| bit(p | other, i))),
+            all(&|p| selects(choice(p).or(choice(other)), &|i| bit(p | other, i))),
         ),
         (
             "choose",
@@ -216,7 +216,8 @@ fn masks(a: Lanes, b: Lanes) -> [Verdict; 8] {
         let signs = Lanes::from_fn(|i| if bit(pattern, i) { 1.0 } else { -1.0 });
         black_box(signs).above(Lanes::ZERO)
     };
-    let told = |found: Mask, wanted: u32| found.lanes().eq((0..LANES).filter(|i| bit(wanted, *i)));
+    let selects =
+        |found: Mask, wanted: u32| found.lanes().eq((0..LANES).filter(|i| bit(wanted, *i)));
     let all = |right: &dyn Fn(u32) -> bool| patterns(LANES).all(right);
     let counted = |pattern: u32| {
         let mut counters = Counters::default();
@@ -226,15 +227,15 @@ fn masks(a: Lanes, b: Lanes) -> [Verdict; 8] {
     let other = 0b0110_1010;
     [
         ("mask: any", all(&|p| mask(p).any() == (p != 0))),
-        ("mask: lanes", all(&|p| told(mask(p), p))),
-        ("mask: not", all(&|p| told(mask(p).not(), !p))),
+        ("mask: lanes", all(&|p| selects(mask(p), p))),
+        ("mask: not", all(&|p| selects(mask(p).not(), !p))),
         (
             "mask: and",
-            all(&|p| told(mask(p).and(mask(other)), p & other)),
+            all(&|p| selects(mask(p).and(mask(other)), p & other)),
         ),
         (
             "mask: or",
-            all(&|p| told(mask(p).or(mask(other)), p | other)),
+            all(&|p| selects(mask(p).or(mask(other)), p | other)),
         ),
         (
             "mask: choose",
@@ -246,7 +247,7 @@ fn masks(a: Lanes, b: Lanes) -> [Verdict; 8] {
         ("mask: counters", all(&|p| counted(p) == 3 * p.count_ones())),
         (
             "mask: NaN",
-            !none.above(a).any() && !a.above(none).any() && told(none.is_nan(), 0xff),
+            !none.above(a).any() && !a.above(none).any() && selects(none.is_nan(), 0xff),
         ),
     ]
 }

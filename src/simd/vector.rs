@@ -120,7 +120,7 @@ impl<S: Simd> Vector<S> {
     }
 
     #[inline(always)]
-    fn told(self, lanes: S::m64s) -> Choice<S> {
+    fn choice(self, lanes: S::m64s) -> Choice<S> {
         Choice {
             simd: self.simd,
             lanes,
@@ -167,7 +167,7 @@ impl<S: Simd> Vector<S> {
     /// Where it is below another; nowhere where one of them is not a number.
     #[inline(always)]
     pub(crate) fn below(self, other: Self) -> Choice<S> {
-        self.told(self.simd.less_than_f64s(self.numbers, other.numbers))
+        self.choice(self.simd.less_than_f64s(self.numbers, other.numbers))
     }
 
     /// Each by a function of one number.
@@ -264,7 +264,7 @@ impl<S: Simd> Number for Vector<S> {
         self.sqrt()
     }
 
-    /// Fused where the instructions have it, whatever is said.
+    /// Fused where the instructions have it, whatever `FMA` is.
     #[inline(always)]
     fn mul_add<const FMA: bool>(self, b: Self, c: Self) -> Self {
         self.mul_add(b, c)
@@ -276,7 +276,7 @@ impl<S: Simd> Number for Vector<S> {
         let off = self
             .simd
             .less_than_or_equal_f64s(self.numbers, zero.numbers);
-        self.told(off).choose(zero, other)
+        self.choice(off).choose(zero, other)
     }
 
     #[inline(always)]
@@ -405,9 +405,9 @@ impl<S: Simd> Choice<S> {
     /// Which ones.
     #[inline(always)]
     pub(crate) fn lanes(self) -> impl Iterator<Item = usize> {
-        let mut told = [0.0; LANES];
+        let mut marks = [0.0; LANES];
         let all = |x| Vector::all(self.simd, x);
-        self.choose(all(1.0), all(0.0)).store(&mut told);
-        (0..Vector::<S>::LANES).filter(move |lane| told[*lane] > 0.0)
+        self.choose(all(1.0), all(0.0)).store(&mut marks);
+        (0..Vector::<S>::LANES).filter(move |lane| marks[*lane] > 0.0)
     }
 }

@@ -73,13 +73,13 @@ fn the_slope_is_the_kernels() {
             let [v_n, _, v_z] = dual.velocity;
             let approach = v_n * dual.share.0 + v_z * dual.share.1;
             dual.elastic.slopes = (approach * (dual.elastic.value * hardening * reach)).slopes;
-            let told =
+            let differentiated =
                 kernel::force::<_, false, false, false, false>(&law, &dual, dual.elastic * 0.0)
                     .on_ring;
             for i in 0..3 {
-                assert!((force.on_ring[i][3] - told[i].value).abs() < 1e-12 * 120.0);
+                assert!((force.on_ring[i][3] - differentiated[i].value).abs() < 1e-12 * 120.0);
                 for j in 0..3 {
-                    let (found, truth) = (written[i][j][5], told[i].slopes[j]);
+                    let (found, truth) = (written[i][j][5], differentiated[i].slopes[j]);
                     let off = (found - truth).abs() / (120.0 * 0.3);
                     assert!(off < 1e-12, "{law:?} {velocity:?} {i} {j}: {found} {truth}");
                 }

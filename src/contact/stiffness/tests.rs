@@ -88,16 +88,17 @@ fn the_form_by_hand_is_the_kernels() {
             let l = 6.24e-3 - 6e-3 + approach;
             let (sin, cos) = f64::sin_cos(tilt);
             let section = Section::new::<false, false>(6e-3, 6.24e-3, l * cos, -l * sin);
-            let (written, told) = (
+            let (written, differentiated) = (
                 pair.meridional(&section, 0.0).unwrap(),
                 pair.differentiated(&section, 0.0),
             );
             for i in 0..2 {
-                let off = (written.force[i] - told.force[i]).abs() / told.force[0];
+                let off =
+                    (written.force[i] - differentiated.force[i]).abs() / differentiated.force[0];
                 assert!(off < 1e-12, "{tilt} {approach}: {off:e}");
                 for j in 0..2 {
-                    let off = (written.slope[i][j] - told.slope[i][j]).abs();
-                    let off = off / told.slope[0][0].abs();
+                    let off = (written.slope[i][j] - differentiated.slope[i][j]).abs();
+                    let off = off / differentiated.slope[0][0].abs();
                     assert!(off < 1e-10, "{tilt} {approach}: {off:e}");
                 }
             }

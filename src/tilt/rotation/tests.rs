@@ -89,8 +89,8 @@ fn a_ring_on_a_spring_whirls() {
     let (stiffness, speed) = (2e4, 800.0);
     let g = RING.polar * speed / (2.0 * RING.transverse);
     let root = (g * g + stiffness / RING.transverse).sqrt();
-    for (rate, told) in [(root + g, 10_660.46), (root - g, 9_380.46)] {
-        assert!((rate - told).abs() < 0.01, "{rate}");
+    for (rate, expected) in [(root + g, 10_660.46), (root - g, 9_380.46)] {
+        assert!((rate - expected).abs() < 0.01, "{rate}");
     }
     for rate in [root + g, g - root] {
         // On a circle: it is back after a turn.

@@ -157,12 +157,12 @@ fn units_scale_exactly() {
         near(other.thickness(), one.thickness() * m, 1e-13);
         near(other.friction(), one.friction(), 1e-13);
         let units = [speed, 1.0 / speed, newton];
-        for ((found, told), unit) in answers(&other, 0.9)
+        for ((found, unscaled), unit) in answers(&other, 0.9)
             .into_iter()
             .zip(answers(&one, 0.9))
             .zip(units)
         {
-            near(found, told * unit, 1e-13);
+            near(found, unscaled * unit, 1e-13);
         }
     }
 }

@@ -61,9 +61,9 @@ fn film() -> Film {
 }
 
 #[track_caller]
-fn near(found: f64, told: f64, tolerance: f64) {
-    let off = (found / told - 1.0).abs();
-    assert!(off <= tolerance, "{found:e}, not {told:e}: {off:.1e}");
+fn near(found: f64, expected: f64, tolerance: f64) {
+    let off = (found / expected - 1.0).abs();
+    assert!(off <= tolerance, "{found:e}, not {expected:e}: {off:.1e}");
 }
 
 /// F_R over the entrainment speed \[N s/m\].

@@ -94,8 +94,8 @@ fn film_has_the_reference_numbers() {
         near(now.thickness(), thickness, 1e-4);
         near(now.friction(), friction, 1e-4);
         near((now.friction() - 0.047) / (0.12 - 0.047), asperities, 3e-4);
-        for (found, told) in answers(&now, r).into_iter().zip(of_contact) {
-            near(found, told, 1e-4);
+        for (found, expected) in answers(&now, r).into_iter().zip(of_contact) {
+            near(found, expected, 1e-4);
         }
     }
 }
@@ -106,9 +106,9 @@ fn damping_is_that_of_section_12_6() {
     let film = film();
     let now = film.at(1.0);
     let loads = [5.0, 20.0, 100.0, 250.0, 1000.0];
-    for (load, told) in loads.into_iter().zip([15.5, 17.0, 13.4, 10.7, 7.1]) {
+    for (load, expected) in loads.into_iter().zip([15.5, 17.0, 13.4, 10.7, 7.1]) {
         let r = (load / 250.0_f64).cbrt();
-        near(now.damping.rate(r) * load, told, 5e-3);
+        near(now.damping.rate(r) * load, expected, 5e-3);
     }
 }
 
@@ -138,9 +138,9 @@ fn rolling_resistance_is_that_of_biboulet_and_houpert() {
         (50.0, 0.05658, 0.05637),
         (500.0, 0.10803, 0.10765),
     ];
-    for (load, told, simplified) in rows {
+    for (load, expected, simplified) in rows {
         let found = bare_rolling(&Conjunction::new(&race(1.0), load, SPEED), &oil);
-        near(found, told, 1e-3);
+        near(found, expected, 1e-3);
         near(found, simplified, 5e-3);
     }
 }
@@ -194,11 +194,11 @@ fn film_is_as_thick_as_surfaces_are_rough_at_kappa_one() {
 #[test]
 fn films_thin_as_oil_warms() {
     for (celsius, inner, outer) in [(40.0, 0.31, 0.38), (55.0, 0.19, 0.23), (70.0, 0.13, 0.15)] {
-        for (sigma, told) in [(-1.0, inner), (1.0, outer)] {
+        for (sigma, expected) in [(-1.0, inner), (1.0, outer)] {
             let race = race(sigma);
             let at = reference(&race, 250.0, SPEED);
             let film = Film::new(&vg68(celsius), &race, at, Effects::ALL).at(1.0);
-            assert!((film.thickness() * 1e6 - told).abs() < 6e-3, "{film:?}");
+            assert!((film.thickness() * 1e6 - expected).abs() < 6e-3, "{film:?}");
         }
     }
 }
@@ -240,15 +240,18 @@ fn free_impacts_lose_what_they_should() {
         (0.1, [0.980, 0.894, 0.877]),
         (0.5, [0.909, 0.921, 0.839]),
     ];
-    for (speed, told) in rows {
+    for (speed, expected) in rows {
         let found = [
             restitution(speed, |_| dry),
             restitution(speed, |r| now.damping.rate(r)),
             restitution(speed, |r| now.damping.rate(r) + dry),
         ];
         println!("{speed} m/s: {found:.4?}");
-        for (found, told) in found.into_iter().zip(told) {
-            assert!((found - told).abs() <= 1e-3, "{speed}: {found} not {told}");
+        for (found, expected) in found.into_iter().zip(expected) {
+            assert!(
+                (found - expected).abs() <= 1e-3,
+                "{speed}: {found} not {expected}"
+            );
         }
     }
 }
