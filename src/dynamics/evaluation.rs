@@ -28,12 +28,11 @@ impl Dynamics<'_> {
         let forces = forces::ALL.map(|force| (force.name(), force.used(model)));
         // What few scenes have is not listed among what is left out.
         let rare = |name: &str| ["drag", "ring forces"].contains(&name);
-        let told = |(name, used): &(&str, Use)| !rare(name) || *used != Use::Absent;
         contacts
             .into_iter()
             .chain(oil)
             .chain(forces)
-            .filter(told)
+            .filter(|(name, used)| !rare(name) || *used != Use::Absent)
             .collect()
     }
 

@@ -226,7 +226,7 @@ fn a_run_ends_when_a_ball_is_lost() {
     for path in all {
         let model = compile(&path.scene).unwrap();
         for way in path.ways {
-            let told = match way {
+            let expected = match way {
                 Way::Pressed => "m into the outer race",
                 Way::Beside => "m beside the middle of the",
                 Way::Off => "m off the inner race",
@@ -235,7 +235,7 @@ fn a_run_ends_when_a_ball_is_lost() {
             let begin = Start::State(lose(&model, *way));
             let (body, reason, time) = ends(&name, &path.scene, begin, 1e-3);
             assert_eq!(body, "row0.ball0", "{name}: {reason}");
-            assert!(reason.contains(told), "{name}: {reason}");
+            assert!(reason.contains(expected), "{name}: {reason}");
             assert!(time < 1e-4, "{name}: {time}");
         }
     }

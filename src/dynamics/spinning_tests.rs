@@ -178,10 +178,10 @@ fn powers_of_free_balls_balance() {
         let h = 2e-9;
         let rate =
             (8.0 * (energy(h) - energy(-h)) - energy(2.0 * h) + energy(-2.0 * h)) / (12.0 * h);
-        let told = inspect::energy(&model, &y);
-        let lost = told.damping_power + told.friction_power;
+        let powers = inspect::energy(&model, &y);
+        let lost = powers.damping_power + powers.friction_power;
         println!("{law:?}: {rate} {lost}");
-        assert!(told.friction_power > 1.0);
+        assert!(powers.friction_power > 1.0);
         // The nodes of a law in slices are exact to so much.
         assert!((rate + lost).abs() < 2e-5 * lost, "{law:?}: {rate} {lost}");
     }

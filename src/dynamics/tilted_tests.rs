@@ -189,10 +189,10 @@ fn powers_balance() {
         let h = 2e-9;
         let rate =
             (8.0 * (energy(h) - energy(-h)) - energy(2.0 * h) + energy(-2.0 * h)) / (12.0 * h);
-        let told = inspect::energy(&model, &y);
-        let lost = told.damping_power + told.friction_power + told.support_power;
-        println!("{law:?}: {rate} {lost} {}", told.friction_power);
-        assert!(told.friction_power > 1.0 && told.support_power > 1e-3);
+        let powers = inspect::energy(&model, &y);
+        let lost = powers.damping_power + powers.friction_power + powers.support_power;
+        println!("{law:?}: {rate} {lost} {}", powers.friction_power);
+        assert!(powers.friction_power > 1.0 && powers.support_power > 1e-3);
         // The nodes of a law in slices are exact to so much.
         assert!((rate + lost).abs() < 2e-5 * lost, "{law:?}: {rate} {lost}");
     }

@@ -166,18 +166,18 @@ fn defects(scene: &Scene, placed: &BTreeMap<String, Placed>) -> Result<Vec<Touch
     let defects = scene.defects.iter().filter(|(_, defect)| is_there(defect));
     defects
         .map(|(name, defect)| {
-            let told = Touched::not_yet(name, defect, placed[name]);
+            let untouched = Touched::not_yet(name, defect, placed[name]);
             let meeting = DefectPasses::of(scene, defect)?;
             Ok(match meeting {
-                Some(meeting) => met(told, defect, &meeting),
-                None => told,
+                Some(meeting) => met(untouched, defect, &meeting),
+                None => untouched,
             })
         })
         .collect()
 }
 
 /// Adds what contacts at equilibrium carry within a defect.
-fn met(mut told: Touched, defect: &Defect, meeting: &DefectPasses) -> Touched {
+fn met(mut result: Touched, defect: &Defect, meeting: &DefectPasses) -> Touched {
     let DefectPasses { model, y, contacts } = meeting;
     let (shape, origin) = compiled(model, defect);
     let mut most = None;
@@ -191,9 +191,9 @@ fn met(mut told: Touched, defect: &Defect, meeting: &DefectPasses) -> Touched {
             ball: &ball,
         };
         let found = pair.load_within(&model.balls[j].side, &ball, &ring, &sighted);
-        told.passes += 1;
-        told.touched += usize::from(found.within > 0.0);
-        told.largest_load = told.largest_load.max(found.within);
+        result.passes += 1;
+        result.touched += usize::from(found.within > 0.0);
+        result.largest_load = result.largest_load.max(found.within);
         let met = MostLoaded {
             load: found.load,
             place: found.place,
@@ -201,7 +201,7 @@ fn met(mut told: Touched, defect: &Defect, meeting: &DefectPasses) -> Touched {
         };
         most = met.or(most);
     }
-    told.met(model, defect, origin, most)
+    result.met(model, defect, origin, most)
 }
 
 fn contacts(model: &Model, dynamics: &Dynamics<'_>) -> Vec<ContactKind> {

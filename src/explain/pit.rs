@@ -35,13 +35,13 @@ pub struct PitExplanation {
 
 /// Of all pits that a loaded contact meets.
 pub(super) fn of(scene: &Scene) -> Result<Vec<PitExplanation>> {
-    let mut told = Vec::new();
+    let mut explanations = Vec::new();
     for (name, defect) in scene.defects.iter().filter(|(_, defect)| defect.is_pit()) {
         if let Some(meeting) = DefectPasses::of(scene, defect)? {
-            told.extend(beneath(name, defect, &meeting));
+            explanations.extend(beneath(name, defect, &meeting));
         }
     }
-    Ok(told)
+    Ok(explanations)
 }
 
 fn beneath(name: &str, defect: &Defect, meeting: &DefectPasses) -> Option<PitExplanation> {

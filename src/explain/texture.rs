@@ -60,11 +60,10 @@ fn of_row(model: &Model, row: usize, texture: &Texture) -> Vec<TextureExplanatio
         ("balls", texture.ball, ball, widths[0].max(widths[1])),
     ];
     let speed = model.rolling_speed(row);
-    let there = surfaces
+    surfaces
         .into_iter()
-        .filter(|(_, amplitude, ..)| *amplitude > 0.0);
-    let told =
-        |(surface, amplitude, orders, width): (&str, f64, [u32; 2], f64)| TextureExplanation {
+        .filter(|(_, amplitude, ..)| *amplitude > 0.0)
+        .map(|(surface, amplitude, orders, width)| TextureExplanation {
             row,
             surface: surface.to_owned(),
             amplitude,
@@ -76,8 +75,8 @@ fn of_row(model: &Model, row: usize, texture: &Texture) -> Vec<TextureExplanatio
             shortest: 2.0 * width,
             frequency: speed / (2.0 * width),
             largest_step: width / (4.0 * speed),
-        };
-    there.map(told).collect()
+        })
+        .collect()
 }
 
 impl fmt::Display for TextureExplanation {

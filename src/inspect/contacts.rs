@@ -86,12 +86,12 @@ impl Sink for List {
 pub fn contact(model: &Model, y: &[f64], j: usize, race: Race) -> ContactSummary {
     let mut sum = Summary::default();
     let side = visit(model, y, j, race, &mut sum);
-    sum.told(race, side)
+    sum.contact_summary(race, side)
 }
 
 impl Summary {
     /// In a few numbers, on a race of a row whose nominal contact angle has this sense.
-    pub(super) fn told(&self, race: Race, side: f64) -> ContactSummary {
+    pub(super) fn contact_summary(&self, race: Race, side: f64) -> ContactSummary {
         if self.weight == 0.0 {
             return ContactSummary {
                 load: 0.0,

@@ -24,7 +24,7 @@ pub fn moments(model: &Model, t: f64, y: &[f64]) -> [[f64; 2]; 2] {
             visit(model, y, j, race, &mut on_ball);
             sum.add(y, j, &on_ball.wrench);
         }
-        sum.told(t)
+        sum.with_loads(t)
     })
 }
 
@@ -86,16 +86,16 @@ impl<'m> MomentOnRing<'m> {
         self.sum += on_ball.on_ring(&self.ring.arm(&ball)).moment;
     }
 
-    /// Adds a ball, given the few numbers of its contact.
-    pub fn add_and_tell(&mut self, y: &[f64], j: usize) -> ContactSummary {
+    /// Adds a ball, and returns the few numbers of its contact.
+    pub fn add_and_summarise(&mut self, y: &[f64], j: usize) -> ContactSummary {
         let mut both = Both::default();
         let side = visit(self.model, y, j, self.race, &mut both);
         self.add(y, j, &both.on_ball.wrench);
-        both.summary.told(self.race, side)
+        both.summary.contact_summary(self.race, side)
     }
 
     /// With the loads at a time \[s\], about x and y and across the ring's axis \[N m\].
-    pub fn told(&self, t: f64) -> [f64; 2] {
+    pub fn with_loads(&self, t: f64) -> [f64; 2] {
         let frame = &self.ring.rotation.frame;
         let loads = load::moment(self.model, t, self.race, |arm| frame.to_scene(arm));
         let (sum, axis) = (self.sum + loads, frame.axis());

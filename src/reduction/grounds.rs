@@ -2,7 +2,6 @@
 
 use super::AxialPlaces;
 use super::course::{Course, Prescribed};
-use crate::contact::Pair;
 use crate::forces;
 use crate::model::{BodyId, Degree, Dof, Model, Race};
 
@@ -144,10 +143,10 @@ pub(super) fn is_felt(model: &Model, motion: &Prescribed, reason: Reason) -> boo
         Reason::NoMoment | Reason::Idle => false,
         // The angle of a smooth, round and balanced ring has no effect, its speed one on films that follow it.
         Reason::Driven(race) => {
-            let told = |pair: &Pair| {
+            let on_ring = model.rows.iter().any(|row| {
+                let pair = &row.pairs[race];
                 pair.law.turns_balls() || !pair.defects.is_empty() || !pair.waves.is_round()
-            };
-            let on_ring = model.rows.iter().any(|row| told(&row.pairs[race]));
+            });
             let turns = forces::ALL.iter().any(|force| force.turns_with_ring(model));
             on_ring || model.has_films_in_motion() || turns
         }

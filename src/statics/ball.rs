@@ -228,7 +228,7 @@ impl Problem<'_> {
                 break;
             };
             let mut step = inverse * state.force;
-            // Or the places cannot be told apart in double precision.
+            // Or the places do not differ in double precision.
             if step.norm() <= 4.0 * f64::EPSILON * state.place.norm() {
                 break;
             }

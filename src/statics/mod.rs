@@ -178,8 +178,8 @@ pub fn equilibrium_under(scene: &Scene, control: RaceControl) -> Result<Equilibr
 }
 
 /// Positions of the equilibrium in a state vector with zero velocities. Where rings and rows are to keep their axial
-/// places, those of the equilibrium with balls that move along z tell which, and the rest balances anew: balls that
-/// share one place would else be pressed more or less than they bear.
+/// places, those of the equilibrium with balls that move along z are taken, and the rest balances anew: balls that
+/// share one place would otherwise be pressed more or less than they bear.
 pub(crate) fn positions(model: &Model) -> Result<Vec<f64>> {
     in_place(model, (RaceControl::Friction, Spacing::Equal)).map(|solved| solved.y)
 }
@@ -250,7 +250,7 @@ pub(crate) fn describe(model: &Model, y: &[f64], iterations: usize) -> Equilibri
     let place = |body: BodyId| layout.centre(y, body);
     let mut on_rings = Race::BOTH.map(|race| MomentOnRing::new(model, y, race));
     let mut contact = |j: usize, race: Race| {
-        let summary = on_rings[race].add_and_tell(y, j);
+        let summary = on_rings[race].add_and_summarise(y, j);
         let loaded = summary.load > 0.0;
         ContactEquilibrium {
             load: summary.load,
@@ -273,7 +273,7 @@ pub(crate) fn describe(model: &Model, y: &[f64], iterations: usize) -> Equilibri
         }
     };
     let balls = model.balls.iter().enumerate().map(ball).collect();
-    let [outer_moment, inner_moment] = on_rings.map(|sum| sum.told(0.0));
+    let [outer_moment, inner_moment] = on_rings.map(|sum| sum.with_loads(0.0));
     let mut found = Equilibrium {
         outer_tilt: model.tilt(y, Race::Outer)[0],
         inner_tilt: model.tilt(y, Race::Inner)[0],

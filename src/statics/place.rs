@@ -185,7 +185,7 @@ impl DefectPasses {
 
     /// Where the most loaded of these contacts runs, from the row's plane or the ball's centre \[m\]; none without load.
     fn place(&self, defect: &Defect) -> Option<f64> {
-        let told = self.contacts.iter().map(|&(j, race)| {
+        let places = self.contacts.iter().map(|&(j, race)| {
             let contact = inspect::contact(&self.model, &self.y, j, race);
             let z = |body: BodyId| self.y[self.model.layout().at(body, Dof::Z)];
             let from = match defect.on {
@@ -195,7 +195,7 @@ impl DefectPasses {
             (contact.load, contact.zone_centre - from)
         });
         let (mut most, mut place) = (LOADED * self.model.scales.load, None);
-        for (load, at) in told {
+        for (load, at) in places {
             if load > most {
                 (most, place) = (load, Some(at));
             }

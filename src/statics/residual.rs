@@ -141,9 +141,9 @@ mod tests {
     use crate::statics::compile;
     use crate::statics::{RaceControl, solve};
 
-    /// Truth: the tangent stiffness. What a ring leaves that is not where it should be is told by name, and refused.
+    /// Truth: the tangent stiffness. A ring out of its place is refused, by its name and the force that is not balanced.
     #[test]
-    fn a_ring_out_of_place_is_told_and_refused() {
+    fn a_ring_out_of_place_is_named_and_refused() {
         let mut scene = presets::deep_groove_6205(500.0, 200.0, 1800.0);
         scene.cage = None;
         let model = compile(&scene).unwrap();
