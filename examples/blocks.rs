@@ -20,11 +20,11 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         }
         Continue(())
     };
-    let told = simulate_into(&scene, &run, &mut sink, &mut |_| Continue(()))?;
+    let rest = simulate_into(&scene, &run, &mut sink, &mut |_| Continue(()))?;
     println!(
         "{samples} samples, peak {peak:.2} m/s², {} steps",
-        told.stats.accepted
+        rest.stats.accepted
     );
-    assert_eq!((samples, told.t.len()), (250, 0));
+    assert_eq!((samples, rest.t.len()), (250, 0));
     Ok(())
 }

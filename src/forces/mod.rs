@@ -79,7 +79,7 @@ pub(crate) trait Force: Debug + Sync {
         Account::default()
     }
 
-    /// Its dampers, for what is said of a run whose steps collapse.
+    /// Its dampers, for the message of a run whose steps collapse.
     fn dampers(&self, _model: &Model) -> Vec<Damper> {
         Vec::new()
     }

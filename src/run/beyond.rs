@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use super::method::{self, Integration};
 use super::step_collapse::StepCollapse;
-use super::watch::{Progress, StepWatch, TELL_EVERY};
+use super::watch::{Progress, REPORT_EVERY, StepWatch};
 use crate::base::clock;
 use crate::base::error::{Error, Result};
 use crate::dynamics::Dynamics;
@@ -24,15 +24,15 @@ pub(super) fn go_on(
         return Ok(0);
     }
     let mut collapse = StepCollapse::new(dynamics.model(), options.max_step);
-    let (mut told, mut stopped) = (clock::now(), false);
+    let (mut reported, mut stopped) = (clock::now(), false);
     let mut observe =
         |dynamics: &mut Dynamics<'_>, step: &DenseStep<'_>, _: &integrate::StepStatistics| {
             if dynamics.lost().is_some() || collapse.after(step.h()) {
                 return ControlFlow::Break(());
             }
             stopped = watch.step(dynamics, step, step.t1()).is_break();
-            if clock::since(told) >= TELL_EVERY {
-                told = clock::now();
+            if clock::since(reported) >= REPORT_EVERY {
+                reported = clock::now();
                 stopped |= progress(1.0).is_break();
             }
             if stopped {

@@ -10,7 +10,7 @@ use super::orbit;
 use super::runaway;
 use super::settings::tolerance;
 use super::step_collapse::StepCollapse;
-use super::watch::{Progress, StepWatch, TELL_EVERY};
+use super::watch::{Progress, REPORT_EVERY, StepWatch};
 use crate::base::clock;
 use crate::base::error::{Error, Result};
 use crate::base::words::{Remembered, Words};
@@ -143,7 +143,7 @@ impl Trajectory {
         let mut follower = Follower {
             bounds: runaway::Bounds::new(dynamics, &self.first),
             ask_every: if model.is_large() { 1 } else { ASK_EVERY },
-            told: begun,
+            reported: begun,
             halt: None,
             spent: false,
             paused: false,
@@ -243,7 +243,7 @@ struct Follower<'a, 'w, 'p> {
     bounds: runaway::Bounds,
     progress: Progress<'p>,
     ask_every: usize,
-    told: f64,
+    reported: f64,
     /// Why it cannot go on, after a step \[s\].
     halt: Option<(f64, Halt)>,
     /// Whether all steps are spent.
@@ -274,7 +274,7 @@ impl<'m> Observer<Dynamics<'m>> for Follower<'_, '_, '_> {
             return ControlFlow::Break(());
         }
         self.pause(step)?;
-        self.tell(step, stats)
+        self.report(step, stats)
     }
 }
 
@@ -316,11 +316,13 @@ impl Follower<'_, '_, '_> {
         ControlFlow::Break(())
     }
 
-    fn tell(&mut self, step: &DenseStep<'_>, stats: &StepStatistics) -> ControlFlow<()> {
-        if !stats.accepted.is_multiple_of(self.ask_every) || clock::since(self.told) < TELL_EVERY {
+    fn report(&mut self, step: &DenseStep<'_>, stats: &StepStatistics) -> ControlFlow<()> {
+        if !stats.accepted.is_multiple_of(self.ask_every)
+            || clock::since(self.reported) < REPORT_EVERY
+        {
             return ControlFlow::Continue(());
         }
-        self.told = clock::now();
+        self.reported = clock::now();
         let Interval { from, to, .. } = self.of.interval;
         (self.progress)((step.t1() - from) / (to - from))
     }

@@ -109,7 +109,7 @@ impl Run {
         Ok(count as usize)
     }
 
-    /// Checks what can be said of it without its scene.
+    /// Checks what does not depend on its scene.
     ///
     /// # Errors
     /// [`Error::Scene`] names the field.
@@ -169,7 +169,7 @@ mod starts {
 
     #[derive(Deserialize)]
     #[serde(untagged)]
-    enum Said {
+    enum Written {
         Name(String),
         State(Vec<f64>),
     }
@@ -184,11 +184,11 @@ mod starts {
 
     pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Start, D::Error> {
         let known = || de::Error::custom("\"equilibrium\", \"rolling\" or an array of states");
-        match Said::deserialize(from).map_err(|_| known())? {
-            Said::Name(name) if name == "equilibrium" => Ok(Start::Equilibrium),
-            Said::Name(name) if name == "rolling" => Ok(Start::Rolling),
-            Said::Name(_) => Err(known()),
-            Said::State(state) => Ok(Start::State(state)),
+        match Written::deserialize(from).map_err(|_| known())? {
+            Written::Name(name) if name == "equilibrium" => Ok(Start::Equilibrium),
+            Written::Name(name) if name == "rolling" => Ok(Start::Rolling),
+            Written::Name(_) => Err(known()),
+            Written::State(state) => Ok(Start::State(state)),
         }
     }
 }
@@ -202,11 +202,11 @@ mod bandwidths {
     // Serde gives a reference.
     #[allow(clippy::trivially_copy_pass_by_ref)]
     pub fn serialize<S: Serializer>(bandwidth: &Bandwidth, to: S) -> Result<S::Ok, S::Error> {
-        let said = match bandwidth {
+        let name = match bandwidth {
             Bandwidth::Auto => Some("auto"),
             Bandwidth::Raw => None,
         };
-        said.serialize(to)
+        name.serialize(to)
     }
 
     pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Bandwidth, D::Error> {

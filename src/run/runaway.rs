@@ -103,8 +103,8 @@ mod tests {
 
     const INNER: BodyId = BodyId::INNER;
 
-    /// What is said of the start with some of its states changed: (is it a speed, body, direction, what is added).
-    fn said(changes: &[(bool, BodyId, Dof, f64)]) -> Option<(BodyId, String)> {
+    /// What has left the bounds after some states of the start are changed: (is it a speed, body, direction, what is added).
+    fn left_after(changes: &[(bool, BodyId, Dof, f64)]) -> Option<(BodyId, String)> {
         let model = compile(&presets::deep_groove_6205(500.0, 0.0, 1800.0)).unwrap();
         let mut y = start(&model, &Start::Equilibrium).unwrap();
         let dynamics = Dynamics::new(&model);
@@ -123,9 +123,9 @@ mod tests {
 
     #[test]
     fn a_bearing_in_its_place_is_fine() {
-        assert_eq!(said(&[]), None);
+        assert_eq!(left_after(&[]), None);
         assert_eq!(
-            said(&[(false, INNER, Theta, 1e6), (true, INNER, Theta, 1e4)]),
+            left_after(&[(false, INNER, Theta, 1e6), (true, INNER, Theta, 1e4)]),
             None
         );
     }
@@ -133,16 +133,16 @@ mod tests {
     #[test]
     fn what_leaves_is_named() {
         let [first, second, third] = [0, 1, 2].map(BodyId::ball);
-        let far = said(&[(false, third, Y, -0.1)]).unwrap();
+        let far = left_after(&[(false, third, Y, -0.1)]).unwrap();
         assert!(
             far.0 == third && far.1.contains(" from its place"),
             "{far:?}"
         );
-        let fast = said(&[(true, INNER, X, -6e3)]).unwrap();
+        let fast = left_after(&[(true, INNER, X, -6e3)]).unwrap();
         assert_eq!(fast, (INNER, "moves at 6000 m/s".to_owned()));
-        let turned = said(&[(true, second, Theta, 1e271)]).unwrap();
+        let turned = left_after(&[(true, second, Theta, 1e271)]).unwrap();
         assert_eq!(turned, (second, "spins at 1e271 rad/s".to_owned()));
-        let of = |body, value| said(&[(false, body, Theta, value)]).unwrap().0;
+        let of = |body, value| left_after(&[(false, body, Theta, value)]).unwrap().0;
         assert_eq!(of(BodyId::OUTER, f64::NAN), BodyId::OUTER);
         assert_eq!(of(first, f64::INFINITY), first);
     }
@@ -152,7 +152,7 @@ mod tests {
         let together: Vec<_> = (0..11)
             .map(|body| (false, BodyId::new(body), Z, 5.0))
             .collect();
-        assert_eq!(said(&together), None);
-        assert_eq!(said(&together[..10]).unwrap().0, BodyId::new(10));
+        assert_eq!(left_after(&together), None);
+        assert_eq!(left_after(&together[..10]).unwrap().0, BodyId::new(10));
     }
 }

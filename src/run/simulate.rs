@@ -64,9 +64,9 @@ pub fn simulate_with_progress(
 ///     peak = ay.values.iter().fold(peak, |peak, a| peak.max(a.abs()));
 ///     Continue(())
 /// };
-/// let told = simulate_into(&scene, &run, &mut sink, &mut |_| Continue(())).unwrap();
-/// assert_eq!((samples, told.t.len()), (50, 0));
-/// assert!(peak > 0.0 && told.stats.accepted > 0);
+/// let rest = simulate_into(&scene, &run, &mut sink, &mut |_| Continue(())).unwrap();
+/// assert_eq!((samples, rest.t.len()), (50, 0));
+/// assert!(peak > 0.0 && rest.stats.accepted > 0);
 /// ```
 ///
 /// The signals that it returns have everything else: statistics, provenance, forces of slices, names and units of the

@@ -65,7 +65,7 @@ impl Snapshot {
     /// # Errors
     /// [`Error::Scene`] where it is none, or of another version.
     pub fn from_json(text: &str) -> Result<Self> {
-        let refused = |told: String| Error::scene("snapshot", "another document", told);
+        let refused = |reason: String| Error::scene("snapshot", "another document", reason);
         let document: Value = serde_json::from_str(text).map_err(|e| refused(e.to_string()))?;
         check(document["version"].as_str().unwrap_or("unknown"))?;
         serde_json::from_value(document).map_err(|e| refused(e.to_string()))

@@ -7,7 +7,7 @@ use crate::integrate::DenseStep;
 use crate::signals::Recorder;
 
 /// How often progress is reported \[s\].
-pub(super) const TELL_EVERY: f64 = 0.02;
+pub(super) const REPORT_EVERY: f64 = 0.02;
 
 /// Sees the first state of a run and every accepted step, on the integrator's clock.
 pub(crate) trait StepWatch: Send {

@@ -59,8 +59,8 @@ mod tests {
 
     /// Golden: no word of Rust, and no ticks where TOML has quotes.
     #[test]
-    fn messages_speak_of_documents() {
-        for (said, told) in [
+    fn messages_use_the_terms_of_documents() {
+        for (message, expected) in [
             ("invalid type: string \"much\", expected f64", "a number"),
             (
                 "invalid length 2, expected an array of length 3",
@@ -93,7 +93,7 @@ mod tests {
                 "no such field; there is none yet",
             ),
         ] {
-            assert_eq!(allowed(said), told);
+            assert_eq!(allowed(message), expected);
         }
     }
 }

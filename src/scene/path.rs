@@ -166,9 +166,9 @@ enum Step<'a> {
 
 fn steps(path: &str) -> Result<Vec<Step<'_>>> {
     let malformed = || {
-        let said = if path.is_empty() { "\"\"" } else { path };
+        let shown = if path.is_empty() { "\"\"" } else { path };
         let allowed = "names joined by dots, with [n] for a place in a list";
-        Error::scene(said, said, allowed)
+        Error::scene(shown, shown, allowed)
     };
     let mut steps = Vec::new();
     for part in path.split('.') {
@@ -226,7 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn an_empty_path_is_told() {
+    fn an_empty_path_is_refused() {
         let scene = crate::scene::presets::wheel_bearing(0.0);
         let Err(Error::Scene { path, value, .. }) = scene.with(&[("", 1.0.into())]) else {
             panic!("it leads nowhere");

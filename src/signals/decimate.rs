@@ -185,12 +185,15 @@ mod tests {
             let wave = |t: f64| (TAU * f * t + 0.3).sin();
             let slope = |t: f64| TAU * f * (TAU * f * t + 0.3).cos();
             let [value, rate] = whole(wave);
-            let [told, derived]: [Vec<f64>; 2] = [
+            let [expected_value, expected_rate]: [Vec<f64>; 2] = [
                 times.clone().map(wave).collect(),
                 times.clone().map(slope).collect(),
             ];
-            assert!(largest_difference(&value, &told) < 1e-4, "{f}");
-            assert!(largest_difference(&rate, &derived) < 4e-4 * TAU * f, "{f}");
+            assert!(largest_difference(&value, &expected_value) < 1e-4, "{f}");
+            assert!(
+                largest_difference(&rate, &expected_rate) < 4e-4 * TAU * f,
+                "{f}"
+            );
         }
         for f in [601.0, 1003.0, 2500.0, 3900.0] {
             let [value, rate] = whole(|t| (TAU * f * t).sin());

@@ -240,7 +240,7 @@ mod tests {
 
     /// Limit: of a constant the filter makes itself, of a ramp its value and its slope, without delay.
     #[test]
-    fn ramps_are_told_exactly() {
+    fn ramps_keep_value_and_slope() {
         for oversampling in [2, 5, 40] {
             let taps = Taps::new(oversampling, 10.0);
             let (mut value, mut slope) = ([0.0; 3], [0.0; 3]);

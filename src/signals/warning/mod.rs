@@ -141,13 +141,13 @@ impl Signals {
             self.accuracy_missed(),
             self.shoulders(),
             self.provenance.distrust.map(Warning::Instructions),
-            self.unheard(),
+            self.undersampled(),
             self.lost_orbit(),
         ]
         .into_iter()
         .flatten()
         .chain(untouched)
-        .chain(self.other_than_told())
+        .chain(self.off_prediction())
         .chain(doubts.map(Warning::Doubtful))
         .collect()
     }
@@ -173,7 +173,7 @@ impl Signals {
         (contacts > 0).then_some(Warning::Shoulders { contacts, steps })
     }
 
-    fn unheard(&self) -> Option<Warning> {
+    fn undersampled(&self) -> Option<Warning> {
         let (defect, line) = self.scene.highest_fault_line(self.provenance.duration)?;
         (self.fs < 2.0 * line).then(|| Warning::SamplingRate {
             fs: self.fs,
@@ -183,7 +183,7 @@ impl Signals {
     }
 
     /// Rows whose orbit speed differs from the prediction; where nothing drives the balls another warning says so.
-    fn other_than_told(&self) -> impl Iterator<Item = Warning> {
+    fn off_prediction(&self) -> impl Iterator<Item = Warning> {
         let play = self.scene.cage.as_ref().map_or(0.0, |cage| cage.play);
         let is_off = move |of: &RowKinematics| {
             let row = &self.scene.rows[of.row];
@@ -203,7 +203,7 @@ impl Signals {
     }
 }
 
-/// What is to be said of a defect that nothing touched.
+/// The warning of a defect that nothing touched.
 fn not_touched(of: &Touched, duration: f64) -> Option<Warning> {
     let defect = of.name.clone();
     match (of.passes, of.touched) {
