@@ -13,7 +13,7 @@ use std::{fs, ptr, slice};
 use ballrace::scene::Scene;
 
 use crate::description::description;
-use crate::instance::{Instance, State, Told};
+use crate::instance::{FmuResult, Instance, State};
 use crate::variables::Table;
 
 /// `fmi3Status`.
@@ -39,7 +39,7 @@ struct Log {
 }
 
 impl Log {
-    fn tell(&self, status: Status, text: &str) {
+    fn write(&self, status: Status, text: &str) {
         let category = if status == WARNING {
             c"logStatusWarning"
         } else {
@@ -54,15 +54,15 @@ impl Log {
 }
 
 /// Works and returns the status of what came of it; a message goes to the log.
-fn status(log: &Log, work: impl FnOnce() -> Told<()>) -> Status {
+fn status(log: &Log, work: impl FnOnce() -> FmuResult<()>) -> Status {
     match catch_unwind(AssertUnwindSafe(work)) {
         Ok(Ok(())) => OK,
-        Ok(Err(told)) => {
-            log.tell(ERROR, &told);
+        Ok(Err(message)) => {
+            log.write(ERROR, &message);
             ERROR
         }
         Err(panic) => {
-            log.tell(FATAL, &format!("a defect of ballrace: {}", words(&*panic)));
+            log.write(FATAL, &format!("a defect of ballrace: {}", words(&*panic)));
             FATAL
         }
     }
@@ -77,7 +77,10 @@ fn words(panic: &(dyn Any + Send)) -> &str {
 }
 
 /// Works with an instance.
-pub unsafe fn with(handle: *mut Handle, work: impl FnOnce(&mut Instance) -> Told<()>) -> Status {
+pub unsafe fn with(
+    handle: *mut Handle,
+    work: impl FnOnce(&mut Instance) -> FmuResult<()>,
+) -> Status {
     // SAFETY: null, or what `fmi3InstantiateCoSimulation` has returned and nobody else uses meanwhile.
     let Some(Handle { instance, log }) = (unsafe { handle.as_mut() }) else {
         return ERROR;
@@ -126,7 +129,7 @@ pub extern "C" fn fmi3GetVersion() -> *const c_char {
     c"3.0".as_ptr()
 }
 
-/// There is no debug log: what is refused or fails is told in any case.
+/// There is no debug log: what is refused or fails is logged in any case.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3SetDebugLogging(
     _: *mut Handle,
@@ -203,7 +206,7 @@ pub unsafe extern "C" fn fmi3ExitInitializationMode(handle: *mut Handle) -> Stat
     // SAFETY: as in `with`.
     if let Some(handle) = unsafe { handle.as_ref() } {
         for doubt in doubts {
-            handle.log.tell(WARNING, &doubt);
+            handle.log.write(WARNING, &doubt);
         }
     }
     done
@@ -272,7 +275,7 @@ pub unsafe extern "C" fn fmi3SetFloat64(
     }
 }
 
-fn check_count(needed: usize, given: usize) -> Told<()> {
+fn check_count(needed: usize, given: usize) -> FmuResult<()> {
     if needed == given {
         return Ok(());
     }
@@ -419,11 +422,11 @@ pub unsafe extern "C" fn ballrace_fmu_describe(
             .map_err(|e| e.to_string())
     });
     let described = described.unwrap_or_else(|panic| Err(words(&*panic).to_owned()));
-    let (is_well, told) = match described {
+    let (is_well, content) = match described {
         Ok(xml) => (true, xml),
-        Err(told) => (false, told),
+        Err(content) => (false, content),
     };
-    let told = CString::new(told.replace('\0', " ")).unwrap_or_default();
+    let content = CString::new(content.replace('\0', " ")).unwrap_or_default();
     // SAFETY: the caller's function; the text outlives the call.
-    unsafe { answer(is_well, told.as_ptr()) };
+    unsafe { answer(is_well, content.as_ptr()) };
 }

@@ -21,8 +21,8 @@ const FS: f64 = 100.0;
 /// Share of a communication step by which an importer's clock may differ from ours.
 const CLOCK: f64 = 1e-6;
 
-/// What is refused or has failed, in words.
-pub type Told<T> = std::result::Result<T, String>;
+/// A result, or the message of what is refused or has failed.
+pub type FmuResult<T> = std::result::Result<T, String>;
 
 /// Where an instance is in its life (section 2.3).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -80,19 +80,19 @@ pub struct State {
 
 impl State {
     /// As bytes.
-    pub fn to_bytes(&self) -> Told<Vec<u8>> {
+    pub fn to_bytes(&self) -> FmuResult<Vec<u8>> {
         serde_json::to_vec(self).map_err(|e| e.to_string())
     }
 
     /// Of such bytes.
-    pub fn from_bytes(bytes: &[u8]) -> Told<Self> {
+    pub fn from_bytes(bytes: &[u8]) -> FmuResult<Self> {
         serde_json::from_slice(bytes).map_err(|e| format!("no state of this FMU: {e}"))
     }
 }
 
 impl Instance {
     /// Of a scene, as text.
-    pub fn new(scene: &str, token: &str) -> Told<Self> {
+    pub fn new(scene: &str, token: &str) -> FmuResult<Self> {
         let table = Scene::from_toml(scene).and_then(Table::of);
         let table = table.map_err(|e| e.to_string())?;
         if table.token != token {
@@ -129,7 +129,7 @@ impl Instance {
     }
 
     /// Begins to initialise for a time \[s\].
-    pub fn enter_initialization(&mut self, start: f64) -> Told<()> {
+    pub fn enter_initialization(&mut self, start: f64) -> FmuResult<()> {
         self.expect(Phase::Instantiated, "fmi3EnterInitializationMode")?;
         self.start = start;
         self.phase = Phase::Initialization;
@@ -137,7 +137,7 @@ impl Instance {
     }
 
     /// Compiles the scene with its parameters, lets its start settle, and returns doubts about it.
-    pub fn exit_initialization(&mut self) -> Told<Vec<String>> {
+    pub fn exit_initialization(&mut self) -> FmuResult<Vec<String>> {
         self.expect(Phase::Initialization, "fmi3ExitInitializationMode")?;
         let doubts = self.simulation()?.scene().doubts();
         self.phase = Phase::Step;
@@ -145,7 +145,7 @@ impl Instance {
     }
 
     /// Goes on from a time by a step \[s\].
-    pub fn do_step(&mut self, from: f64, step: f64) -> Told<()> {
+    pub fn do_step(&mut self, from: f64, step: f64) -> FmuResult<()> {
         self.expect(Phase::Step, "fmi3DoStep")?;
         let (start, simulation) = (self.start, self.simulation()?);
         let now = start + simulation.time();
@@ -169,7 +169,7 @@ impl Instance {
 
     /// Leads rings whose motions are given over a step, to where their places and speeds at its beginning point: with the acceleration
     /// since the step before, as far as there was one.
-    fn lead(&mut self, step: f64, until: f64) -> Told<()> {
+    fn lead(&mut self, step: f64, until: f64) -> FmuResult<()> {
         let value = |at: usize| self.values.get(&at).copied();
         let places = self.table.list.iter().enumerate();
         let places = places.filter_map(|(at, variable)| match &variable.source {
@@ -208,13 +208,13 @@ impl Instance {
     }
 
     /// A variable by its reference.
-    pub fn variable(&self, reference: u32) -> Told<&Variable> {
+    pub fn variable(&self, reference: u32) -> FmuResult<&Variable> {
         let found = self.table.list.get(reference as usize);
         found.ok_or_else(|| format!("no variable has the value reference {reference}"))
     }
 
     /// Sets an input or a parameter.
-    pub fn set(&mut self, reference: u32, value: f64) -> Told<()> {
+    pub fn set(&mut self, reference: u32, value: f64) -> FmuResult<()> {
         let variable = self.variable(reference)?;
         let (start, leads, is_rate) = match &variable.source {
             Source::Field { start, role, .. } => (*start, *role == Role::Place, false),
@@ -247,7 +247,7 @@ impl Instance {
     }
 
     /// Appends the numbers of a variable.
-    pub fn get(&mut self, reference: u32, values: &mut Vec<f64>) -> Told<()> {
+    pub fn get(&mut self, reference: u32, values: &mut Vec<f64>) -> FmuResult<()> {
         let time = self.time();
         match &self.variable(reference)?.source {
             Source::Time => values.push(time),
@@ -280,7 +280,7 @@ impl Instance {
         Ok(())
     }
 
-    fn rates(&mut self) -> Told<&[f64]> {
+    fn rates(&mut self) -> FmuResult<&[f64]> {
         let rates = match self.answers.rates.take() {
             Some(known) => known,
             None => rates(self.simulation()?),
@@ -288,7 +288,7 @@ impl Instance {
         Ok(self.answers.rates.insert(rates))
     }
 
-    fn wrench(&mut self, race: Race) -> Told<[f64; 6]> {
+    fn wrench(&mut self, race: Race) -> FmuResult<[f64; 6]> {
         let wrench = match self.answers.wrenches[race] {
             Some(known) => known,
             None => self.simulation()?.wrench(race.into()),
@@ -297,7 +297,7 @@ impl Instance {
         Ok(wrench)
     }
 
-    fn contacts(&mut self) -> Told<&[[ContactSummary; 2]]> {
+    fn contacts(&mut self) -> FmuResult<&[[ContactSummary; 2]]> {
         let contacts = match self.answers.contacts.take() {
             Some(known) => known,
             None => self.simulation()?.contacts(),
@@ -306,7 +306,7 @@ impl Instance {
     }
 
     /// The simulation with all values that were set; begins it where it has not.
-    fn simulation(&mut self) -> Told<&mut Simulation> {
+    fn simulation(&mut self) -> FmuResult<&mut Simulation> {
         if self.phase == Phase::Instantiated {
             return Err("before fmi3EnterInitializationMode there is no state".to_owned());
         }
@@ -354,7 +354,7 @@ impl Instance {
     }
 
     /// Takes up a state.
-    pub fn set_state(&mut self, state: &State) -> Told<()> {
+    pub fn set_state(&mut self, state: &State) -> FmuResult<()> {
         if state.token != self.table.token {
             return Err("a state of another FMU".to_owned());
         }
@@ -369,7 +369,7 @@ impl Instance {
         Ok(())
     }
 
-    fn expect(&self, phase: Phase, function: &str) -> Told<()> {
+    fn expect(&self, phase: Phase, function: &str) -> FmuResult<()> {
         if self.phase == phase {
             return Ok(());
         }

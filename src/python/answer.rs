@@ -25,7 +25,7 @@ pub(super) type Progress<'a> = &'a mut dyn FnMut(f64) -> ControlFlow<()>;
 pub(super) type Sink<'a> = &'a mut (dyn FnMut(Block) -> ControlFlow<()> + Send);
 
 /// Messages to the waiting thread.
-enum Told {
+enum Message {
     Share(f64),
     Block(Block),
 }
@@ -67,7 +67,9 @@ pub(super) fn forced<T: Send + 'static>(
         progress,
         sink: None,
     };
-    let done = handing_over(py, callbacks, &raised.stop(), |told, _| work(told));
+    let done = handing_over(py, callbacks, &raised.stop(), |on_progress, _| {
+        work(on_progress)
+    });
     raised.before(py, done)
 }
 
@@ -79,30 +81,30 @@ pub(super) fn handing_over<T: Send + 'static>(
     work: impl FnOnce(Progress<'_>, Sink<'_>) -> Result<T> + Send + 'static,
 ) -> PyResult<T> {
     // A block is given when it is asked for, so that they do not pile up.
-    let (tell, listen) = mpsc::sync_channel(0);
+    let (sender, receiver) = mpsc::sync_channel(0);
     let heeded = stop.clone();
     let worker = thread::Builder::new()
         .name("ballrace".to_owned())
         .stack_size(STACK)
         .spawn(move || {
             // Owned here, so that listening ends with the work.
-            let tell = tell;
+            let sender = sender;
             let mut progress = |share| {
                 // What nobody has time for just now is old at the next look.
-                let _ = tell.try_send(Told::Share(share));
+                let _ = sender.try_send(Message::Share(share));
                 if heeded.is_set() {
                     ControlFlow::Break(())
                 } else {
                     ControlFlow::Continue(())
                 }
             };
-            let mut sink = |block| match tell.send(Told::Block(block)) {
+            let mut sink = |block| match sender.send(Message::Block(block)) {
                 Ok(()) => ControlFlow::Continue(()),
                 Err(_) => ControlFlow::Break(()),
             };
             heeded.heed(|| work(&mut progress, &mut sink))
         })?;
-    py.detach(move || wait(&listen, callbacks))
+    py.detach(move || wait(&receiver, callbacks))
         .inspect_err(|_| stop.set())?;
     let result = py.detach(|| worker.join());
     result
@@ -111,12 +113,12 @@ pub(super) fn handing_over<T: Send + 'static>(
 }
 
 /// Until the other end is gone.
-fn wait(listen: &Receiver<Told>, callbacks: Callbacks<'_>) -> PyResult<()> {
+fn wait(receiver: &Receiver<Message>, callbacks: Callbacks<'_>) -> PyResult<()> {
     let mut looked = Instant::now();
     loop {
-        let share = match listen.recv_timeout(ATTENTION) {
-            Ok(Told::Share(share)) => Some(share),
-            Ok(Told::Block(block)) => {
+        let share = match receiver.recv_timeout(ATTENTION) {
+            Ok(Message::Share(share)) => Some(share),
+            Ok(Message::Block(block)) => {
                 Python::attach(|py| hand_over(py, callbacks.sink, block))?;
                 None
             }
@@ -131,9 +133,9 @@ fn wait(listen: &Receiver<Told>, callbacks: Callbacks<'_>) -> PyResult<()> {
 }
 
 /// Checks for Ctrl-C and calls the callback.
-fn attend(py: Python<'_>, progress: Option<&Py<PyAny>>, told: Option<f64>) -> PyResult<()> {
+fn attend(py: Python<'_>, progress: Option<&Py<PyAny>>, share: Option<f64>) -> PyResult<()> {
     py.check_signals()?;
-    match (progress, told) {
+    match (progress, share) {
         (Some(callback), Some(share)) => callback.call1(py, (share,)).map(drop),
         _ => Ok(()),
     }

@@ -48,10 +48,9 @@ pub(super) fn campaign(
             })
         });
         let mut watch = |outcomes: Vec<Outcome>| {
-            let told = Python::attach(|py| tell(py, &done, outcomes, keep_signals));
-            // A second exception, of the last call, says nothing new.
-            match told {
+            match Python::attach(|py| pass_on(py, &done, outcomes, keep_signals)) {
                 Ok(()) => ControlFlow::Continue(()),
+                // A second exception, of the last call, says nothing new.
                 Err(exception) => {
                     raised.get_or_insert(exception);
                     ControlFlow::Break(())
@@ -103,7 +102,7 @@ fn pull(py: Python<'_>, cases: &Py<pyo3::types::PyIterator>) -> PyResult<Option<
 }
 
 /// Checks for Ctrl-C, and passes the outcomes on.
-fn tell(
+fn pass_on(
     py: Python<'_>,
     done: &Py<PyAny>,
     outcomes: Vec<Outcome>,

@@ -138,11 +138,11 @@ pub(super) fn simulate<'py>(
         sink: sink.as_ref(),
     };
     let in_blocks = sink.is_some();
-    let done = handing_over(py, callbacks, &raised.stop(), move |told, sink| {
+    let done = handing_over(py, callbacks, &raised.stop(), move |on_progress, sink| {
         if in_blocks {
-            ballrace::simulate_into(&scene, &run, sink, told)
+            ballrace::simulate_into(&scene, &run, sink, on_progress)
         } else {
-            ballrace::simulate_with_progress(&scene, &run, told)
+            ballrace::simulate_with_progress(&scene, &run, on_progress)
         }
     });
     let signals = raised.before(py, done)?;
@@ -168,8 +168,8 @@ pub(super) fn state_of(scene: &Scene, y: &PyReadonlyArray1<'_, f64>) -> ballrace
 #[pyfunction]
 pub(super) fn explain(py: Python<'_>, scene: &str) -> PyResult<(String, String)> {
     let scene = Scene::from_json(scene).or_raise(py)?;
-    let told = answering(py, None, move |_| ballrace::explain(&scene))?;
-    Ok((to_json(&told)?, told.to_string()))
+    let explanation = answering(py, None, move |_| ballrace::explain(&scene))?;
+    Ok((to_json(&explanation)?, explanation.to_string()))
 }
 
 pub(super) fn hand_over(py: Python<'_>, mut signals: Signals) -> PyResult<Bound<'_, PyDict>> {

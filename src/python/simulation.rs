@@ -42,8 +42,8 @@ impl GoingRun {
             run.start = Start::State(state_of(&scene, &y).or_raise(py)?);
         }
         let raised = Raised::of_forces(&mut scene, forces);
-        let made = forced(py, progress.as_ref(), &raised, move |told| {
-            ballrace::Simulation::begin_with_progress(&scene, &run, told)
+        let made = forced(py, progress.as_ref(), &raised, move |on_progress| {
+            ballrace::Simulation::begin_with_progress(&scene, &run, on_progress)
         })?;
         Ok(Self(Arc::new(Mutex::new(Some(made))), raised))
     }
@@ -132,8 +132,8 @@ impl GoingRun {
         t: f64,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let block = self.answering(py, progress.as_ref(), move |simulation, told| {
-            simulation.advance_with_progress(t, told)?;
+        let block = self.answering(py, progress.as_ref(), move |simulation, on_progress| {
+            simulation.advance_with_progress(t, on_progress)?;
             Ok(simulation.take_block())
         })?;
         let columns = PyDict::new(py);
@@ -185,10 +185,13 @@ impl GoingRun {
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Bound<'py, PyDict>> {
         let going = Arc::clone(&self.0);
-        let signals = forced(py, progress.as_ref(), &self.1, move |told| {
+        let signals = forced(py, progress.as_ref(), &self.1, move |on_progress| {
             let mut going = going.lock().unwrap_or_else(PoisonError::into_inner);
             going.as_ref().ok_or_else(over)?.check_end()?;
-            going.take().ok_or_else(over)?.finish_with_progress(told)
+            going
+                .take()
+                .ok_or_else(over)?
+                .finish_with_progress(on_progress)
         })?;
         hand_over(py, signals)
     }
@@ -203,9 +206,9 @@ impl GoingRun {
         work: impl FnOnce(&mut ballrace::Simulation, Progress<'_>) -> Result<T> + Send + 'static,
     ) -> PyResult<T> {
         let going = Arc::clone(&self.0);
-        forced(py, progress, &self.1, move |told| {
+        forced(py, progress, &self.1, move |on_progress| {
             let mut going = going.lock().unwrap_or_else(PoisonError::into_inner);
-            work(going.as_mut().ok_or_else(over)?, told)
+            work(going.as_mut().ok_or_else(over)?, on_progress)
         })
     }
 

@@ -133,8 +133,10 @@ pub(super) fn rolling(
     let found = solved(py, scene, move |scene| {
         bindings::rolling(&ballrace::compile(scene)?, control)
     })?;
-    let told = |of: RowRolling| (of.angle, of.cage, of.spin);
-    Ok(found.into_iter().map(|row| row.map(told)).collect())
+    let rows = found.into_iter();
+    Ok(rows
+        .map(|row| row.map(|of: RowRolling| (of.angle, of.cage, of.spin)))
+        .collect())
 }
 
 /// Loads at so many positions of the cage per pitch.
@@ -165,7 +167,7 @@ pub(super) fn load_distribution<'py>(
     let by_pressure =
         |a: &&Equilibrium, b: &&Equilibrium| a.largest_pressure().total_cmp(&b.largest_pressure());
     let worst = found.equilibria.iter().max_by(by_pressure);
-    all.set_item("warnings", worst.map_or_else(Vec::new, told))?;
+    all.set_item("warnings", worst.map_or_else(Vec::new, warnings_of))?;
     Ok(all)
 }
 
@@ -193,13 +195,13 @@ fn arrays<'py>(py: Python<'py>, found: &Equilibrium) -> PyResult<Bound<'py, PyDi
     }
     all.set_item("iterations", found.iterations)?;
     all.set_item("films", to_json(&found.films)?)?;
-    all.set_item("warnings", told(found))?;
+    all.set_item("warnings", warnings_of(found))?;
     all.set_item("residual", found.residual)?;
     all.set_item("residual_share", found.residual_share)?;
     Ok(all)
 }
 
-fn told(found: &Equilibrium) -> Vec<String> {
+fn warnings_of(found: &Equilibrium) -> Vec<String> {
     found.doubts.iter().map(ToString::to_string).collect()
 }
 
