@@ -133,14 +133,14 @@ def _period(varying: dict[str, Ramp | Sine | Table | Spline]) -> tuple[float, fl
     (first, span), *others = spans.items()
     for path, other in others:
         if other != span:
-            told = f"a table from {other[0]:g} to {other[1]:g} s"
+            given = f"a table from {other[0]:g} to {other[1]:g} s"
             allowed = f"a table as long as that of {first}, {span[0]:g} to {span[1]:g} s"
-            raise SceneError(path, told, f"{allowed}: a life needs their common period")
+            raise SceneError(path, given, f"{allowed}: a life needs their common period")
     for path, frequency in rates.items():
         if not _fits(frequency * (span[1] - span[0])):
-            told = f"a sine of {frequency:g} Hz"
+            given = f"a sine of {frequency:g} Hz"
             allowed = f"a whole number of periods in {span[1] - span[0]:g} s, the period of {first}"
-            raise SceneError(path, told, f"{allowed}: a life needs their common period")
+            raise SceneError(path, given, f"{allowed}: a life needs their common period")
     return span
 
 

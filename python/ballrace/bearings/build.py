@@ -19,7 +19,7 @@ from .rows import catalogue
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-__all__ = ["OUTER", "bearing", "metal", "rows_of", "said_clearance"]
+__all__ = ["OUTER", "asked_clearance", "bearing", "metal", "rows_of"]
 
 _HALF_THE_BALLS = 1.22
 """Thrust over Fr tan α with which half of the balls carry (Sjövall's integrals at ε = 0.5)."""
@@ -127,7 +127,7 @@ def bearing(
     >>> out = br.simulate(scene, duration=0.002)
     """
     made = name if isinstance(name, Bearing) else catalogue[name]
-    smooth = rows_of(made, said_clearance(name, made, clearance))
+    smooth = rows_of(made, asked_clearance(name, made, clearance))
     rows = tuple(replace(row, texture=texture) for row in smooth)
     if radial_load is None:
         radial_load = 0.1 * made.static_rating
@@ -186,15 +186,15 @@ def rows_of(made: Bearing, clearance: str | float) -> tuple[Row, ...]:
     return replace(single, axial_position=-aside), replace(single, side=-1, axial_position=aside)
 
 
-def said_clearance(
+def asked_clearance(
     name: str | Bearing, made: Bearing, clearance: str | float | None = None
 ) -> str | float:
     """Return the clearance that was asked for, by the name of a bearing or as an argument."""
     named = isinstance(name, str) and made.kind == "deep_groove"
-    said = catalogue.read(str(name)).clearance if named else None
-    if said and clearance not in (None, said):
-        raise SceneError("clearance", repr(clearance), f"{said!r}, as in {name!r}, or absent")
-    return said or ("CN" if clearance is None else clearance)
+    designated = catalogue.read(str(name)).clearance if named else None
+    if designated and clearance not in (None, designated):
+        raise SceneError("clearance", repr(clearance), f"{designated!r}, as in {name!r}, or absent")
+    return designated or ("CN" if clearance is None else clearance)
 
 
 def metal(made: Bearing) -> float:

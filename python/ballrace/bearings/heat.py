@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from .._numbers import positive, real
 from ..errors import EquilibriumError, SceneError
-from .build import said_clearance
+from .build import asked_clearance
 from .clearance import radial_clearance
 from .entry import Bearing
 from .fits import Interference, Seat, interference
@@ -105,8 +105,8 @@ class OperatingClearance:
             Its clearance is not the initial one of this.
         """
         if not all(math.isclose(r.clearance, self.initial, rel_tol=1e-6) for r in scene.rows):
-            told = f"{scene.rows[0].clearance:g}"
-            raise SceneError("rows[0].clearance", told, f"{self.initial:g}, before mounting")
+            given = f"{scene.rows[0].clearance:g}"
+            raise SceneError("rows[0].clearance", given, f"{self.initial:g}, before mounting")
         return replace(
             scene, rows=tuple(replace(row, clearance=self.clearance) for row in scene.rows)
         ).validate()
@@ -114,8 +114,8 @@ class OperatingClearance:
     def __str__(self) -> str:
         parts = (
             ("before mounting", self.initial, ""),
-            ("fit on the shaft", -self.shaft_fit, _told(self.shaft_interference)),
-            ("fit in the housing", -self.housing_fit, _told(self.housing_interference)),
+            ("fit on the shaft", -self.shaft_fit, _fit_in_words(self.shaft_interference)),
+            ("fit in the housing", -self.housing_fit, _fit_in_words(self.housing_interference)),
             ("heat", -self.heat, ""),
             ("in operation", self.clearance, ""),
         )
@@ -129,7 +129,7 @@ class OperatingClearance:
         return "\n".join([f"diametral clearance of {self.designation}", *lines])
 
 
-def _told(size: float) -> str:
+def _fit_in_words(size: float) -> str:
     if size == 0.0:
         return ""
     kind = "interference" if size > 0.0 else "play"
@@ -198,7 +198,7 @@ def operating_clearance(
     took = (pitch - ball) * inner + ball * (inner + outer) - (pitch + ball) * outer
     return OperatingClearance(
         designation=made.designation,
-        initial=radial_clearance(made.bore, said_clearance(name, made, clearance)),
+        initial=radial_clearance(made.bore, asked_clearance(name, made, clearance)),
         shaft_fit=grown,
         housing_fit=shrunk,
         heat=alpha * took,

@@ -79,7 +79,7 @@ def read(name: str, known: Collection[str]) -> Name | None:
         for designation, rest in _beginnings(begun, _written(tuple(known))):
             # A digit goes on with the number, unless it begins a mark: 622082RS is no 6220, and 62052RS is a 6205.
             if not (rest[:1].isdigit() and _marks(rest)[1]):
-                return _said(designation, maker, rest)
+                return _name_of(designation, maker, rest)
     return None
 
 
@@ -122,7 +122,7 @@ def _thin(designation: str) -> str:
     return "6" + designation[2:].replace("/", "")
 
 
-def _said(designation: str, maker: str, rest: str) -> Name:
+def _name_of(designation: str, maker: str, rest: str) -> Name:
     marks, unknown = _marks(rest)
     table = _table()
     classes = [mark for mark in marks if table[mark][0] == "clearance"]

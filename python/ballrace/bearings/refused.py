@@ -69,5 +69,5 @@ def _rates(name: str) -> str:
     if known is None:
         return "; br.frequencies.orders has its fault frequencies by number and diameter of its rolling elements"
     lines = ("ftf", "bpfo", "bpfi", "bsf")
-    told = ", ".join(f"{line.upper()} {getattr(known, line):.4g}" for line in lines)
-    return f"; its fault frequencies are {told} times the shaft's"
+    orders = ", ".join(f"{line.upper()} {getattr(known, line):.4g}" for line in lines)
+    return f"; its fault frequencies are {orders} times the shaft's"

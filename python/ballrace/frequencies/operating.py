@@ -328,8 +328,8 @@ def ring_rates(inner_rpm: float, outer_rpm: float) -> _Speeds:
     outer = finite("outer_rpm", outer_rpm, "rev/min")
     inner = finite("speed_rpm", inner_rpm, "rev/min")
     if inner == outer:
-        told = "not 0" if outer == 0.0 else f"not that of the outer ring, {outer:g}"
-        allowed = f"a speed of the inner ring [rev/min], {told}"
+        excluded = "not 0" if outer == 0.0 else f"not that of the outer ring, {outer:g}"
+        allowed = f"a speed of the inner ring [rev/min], {excluded}"
         raise SceneError("speed_rpm", repr(inner_rpm), allowed)
     return outer / 60.0, inner / 60.0
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal, get_args
 
 from .._numbers import real
 from ..bearings import Bearing, catalogue
-from ..bearings.build import said_clearance
+from ..bearings.build import asked_clearance
 from ..bearings.clearance import clearance_limits
 from ..errors import SceneError
 
@@ -140,8 +140,8 @@ class Recipe:
         """Lowest and highest clearance [m]; None where all have the same."""
         if self.clearance != "scatter":
             return None
-        said = str(said_clearance(self.bearing, self.made))
-        return 0.0, clearance_limits(self.made.bore, said)[1]
+        asked = str(asked_clearance(self.bearing, self.made))
+        return 0.0, clearance_limits(self.made.bore, asked)[1]
 
     def _check_clearance(self) -> None:
         if self.clearance != "scatter":

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Literal
 from .._arguments import knows
 from .._numbers import real
 from ..bearings import Bearing, Pedestal, catalogue
-from ..bearings.build import OUTER, rows_of, said_clearance
+from ..bearings.build import OUTER, asked_clearance, rows_of
 from ..bearings.filled import filled
 from ..bearings.pedestal import pillow_block
 from ..errors import SceneError
@@ -176,7 +176,7 @@ def _placed(each: tuple[object, ...]) -> _Place:
         raise SceneError("bearings", repr(each), allowed)
     placed = [
         replace(row, axial_position=at + row.axial_position)
-        for row in rows_of(made, said_clearance(name, made))
+        for row in rows_of(made, asked_clearance(name, made))
     ]
     if isinstance(side, int):
         placed = [replace(row, side=side) for row in placed]

@@ -168,11 +168,11 @@ class Measurement:
             There is no such column; the only one is ``sensor``.
         """
         clipped = (_clipped(self.clipped, self.range),) if self.clipped > CLIPPED else ()
-        told = Channel(
+        sensor = Channel(
             x=self.x, fs=self.fs, name="sensor", unit=self.unit, start=self.start, shaft=self.shaft,
             scene=self.scene, warnings=(*self.warnings, *clipped),
         )  # fmt: skip
-        return told.channel(name)
+        return sensor.channel(name)
 
     def write(self, path: str | os.PathLike[str]) -> None:
         """Write the signal into a file that :func:`ballrace.read` reads, as the column ``sensor``.

@@ -218,8 +218,8 @@ def _check_around(around: object, scene: Scene) -> None:
     balls = sum(row.ball_count for row in scene.rows)
     if isinstance(around, LoadDistribution):
         if (len(around.outer_equivalent), around.ball.size) != (len(scene.rows), balls):
-            told = f"one of {around.ball.size} balls"
-            raise SceneError("around", told, f"that of this scene, which has {balls}")
+            given = f"one of {around.ball.size} balls"
+            raise SceneError("around", given, f"that of this scene, which has {balls}")
     elif around is not None:
         raise SceneError("around", f"a {type(around).__name__}", "a LoadDistribution, or None")
 

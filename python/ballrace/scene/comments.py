@@ -81,10 +81,10 @@ def _meaning(document: Mapping[str, Any], path: list[str]) -> str:
         node = next(
             found for each in _choices(node, document) if (found := _entry(each, key)) is not None
         )
-    told = node.get("description") or next(_choices(node, document)).get("description", "")
+    text = node.get("description") or next(_choices(node, document)).get("description", "")
     names = [name for each in _choices(node, document) for name in each.get("enum", ())]
     chosen = ", ".join(f'"{name}"' for name in names)
-    return (f"{told} One of {chosen}." if len(names) > 1 else str(told)).replace("`", "")
+    return (f"{text} One of {chosen}." if len(names) > 1 else str(text)).replace("`", "")
 
 
 def _choices(node: Mapping[str, Any], document: Mapping[str, Any]) -> Iterator[Mapping[str, Any]]:

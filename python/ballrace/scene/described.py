@@ -26,11 +26,11 @@ def described(kind: type[Part]) -> dict[str, Any]:
 
 
 def _part(kind: type[Part], known: dict[str, Any]) -> dict[str, Any]:
-    hints, told = typing.get_type_hints(kind), _told(kind)
+    hints, descriptions = typing.get_type_hints(kind), _descriptions(kind)
     properties, required, either = {}, [], {}
     for field in dataclasses.fields(kind):
         key = field.name.removesuffix("_")
-        properties[key] = _type(hints[field.name], known) | _about(field, told)
+        properties[key] = _type(hints[field.name], known) | _about(field, descriptions)
         if INSTEAD in field.metadata:
             other, meaning = field.metadata[INSTEAD]
             properties[other] = _type(hints[field.name], known) | {"description": meaning}
@@ -42,18 +42,18 @@ def _part(kind: type[Part], known: dict[str, Any]) -> dict[str, Any]:
     return text | of | ({"required": required} if required else {}) | either
 
 
-def _about(field: dataclasses.Field[Any], told: Mapping[str, str]) -> dict[str, Any]:
+def _about(field: dataclasses.Field[Any], descriptions: Mapping[str, str]) -> dict[str, Any]:
     found: dict[str, Any] = {}
-    if field.name in told:
-        found["description"] = told[field.name]
+    if field.name in descriptions:
+        found["description"] = descriptions[field.name]
     if field.default is not dataclasses.MISSING and field.default is not None:
         found["default"] = encode(field.default, field.name)
     return found
 
 
-def _told(kind: type[Part]) -> dict[str, str]:
+def _descriptions(kind: type[Part]) -> dict[str, str]:
     """Return what a docstring says of each field, in words that hold for documents."""
-    told: dict[str, str] = {}
+    descriptions: dict[str, str] = {}
     lines = (inspect.getdoc(kind) or "").partition("Attributes\n----------\n")[2].splitlines()
     names: list[str] = []
     for line in lines:
@@ -61,10 +61,10 @@ def _told(kind: type[Part]) -> dict[str, str]:
             break
         if line.startswith(" "):
             for name in names:
-                told[name] = f"{told.get(name, '')} {line.strip()}".strip()
+                descriptions[name] = f"{descriptions.get(name, '')} {line.strip()}".strip()
         else:
             names = re.split(r",\s*", line.partition(" : ")[0])
-    return {name: _plain(text) for name, text in told.items()}
+    return {name: _plain(text) for name, text in descriptions.items()}
 
 
 def _plain(text: str) -> str:

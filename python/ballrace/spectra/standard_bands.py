@@ -135,12 +135,12 @@ def _checked(band: tuple[float, float]) -> tuple[float, float]:
     return low, high
 
 
-def _unit(known: str, said: str | None) -> str:
+def _unit(known: str, given: str | None) -> str:
     """Return the unit of a signal, which a record may know."""
     known = known.replace("²", "^2")
-    if known and said is not None and said.replace("²", "^2") != known:
-        raise SceneError("unit", repr(said), f"left out: the record is in {known}")
-    unit = known or (said or "m/s^2").replace("²", "^2")
+    if known and given is not None and given.replace("²", "^2") != known:
+        raise SceneError("unit", repr(given), f"left out: the record is in {known}")
+    unit = known or (given or "m/s^2").replace("²", "^2")
     if unit not in ACCELERATIONS | VELOCITIES:
         raise SceneError("unit", repr(unit), f"one of {', '.join(ACCELERATIONS | VELOCITIES)}")
     return unit

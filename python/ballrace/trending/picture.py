@@ -32,8 +32,8 @@ def picture(of: Trend, fig: go.Figure | None, layout: dict[str, Any]) -> go.Figu
     time = of.table["time"].to_numpy()
     parts = [name for name in of.table.columns if name.endswith(".z")]
     for number, name in enumerate(parts):
-        told = name.removesuffix(".z").replace("_", " ")
-        _add(fig, 1, time, of.table[name].to_numpy(), name=f"z, {told}", number=number)
+        part = name.removesuffix(".z").replace("_", " ")
+        _add(fig, 1, time, of.table[name].to_numpy(), name=f"z, {part}", number=number)
     shown = [name for name in FOLLOWED if name in of.limits]
     for number, name in enumerate(shown, start=len(parts)):
         value = of.table[name].to_numpy() / of.limits[name]

@@ -134,9 +134,9 @@ class _Taken:
 def _check_alike(at: str, channel: Channel, first: _Taken | None) -> None:
     """Refuse a record whose numbers cannot be compared with those of the first."""
     if first is not None and (channel.fs, channel.unit) != (first.fs, first.unit):
-        told = f"{channel.fs:g} Hz in {channel.unit or 'no unit'}"
+        given = f"{channel.fs:g} Hz in {channel.unit or 'no unit'}"
         raise SceneError(
-            at, told, f"as the first record, {first.fs:g} Hz in {first.unit or 'no unit'}"
+            at, given, f"as the first record, {first.fs:g} Hz in {first.unit or 'no unit'}"
         )
 
 

@@ -45,7 +45,7 @@ def shapes_of(
 def numbers_of(channel: Channel, found: Diagnosis) -> dict[str, float | str | None]:
     """Return all that does not depend on a band that is chosen later."""
     severity = found.severity
-    told: dict[str, float | str | None] = {
+    numbers: dict[str, float | str | None] = {
         "verdict": found.verdict,
         "parts": "+".join(found.parts),
         "shaft": found.shaft.rate,
@@ -55,6 +55,6 @@ def numbers_of(channel: Channel, found: Diagnosis) -> dict[str, float | str | No
     }
     for part in ACCUSED:
         one = found.evidence.get(part)
-        told[f"{part}.z"] = None if one is None else one.z
-        told[f"{part}.acceleration"] = None if one is None else one.strength.acceleration
-    return told
+        numbers[f"{part}.z"] = None if one is None else one.z
+        numbers[f"{part}.acceleration"] = None if one is None else one.strength.acceleration
+    return numbers
