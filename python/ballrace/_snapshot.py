@@ -60,10 +60,10 @@ class Snapshot:
         """
         from ._polars import pl
 
-        told = {"ballrace": f"snapshot {_FORMAT}", _ENTRY: self._document}
+        entries = {"ballrace": f"snapshot {_FORMAT}", _ENTRY: self._document}
         with whole(path) as temporary, sealing(temporary, path):
             table = pl.DataFrame(joined(self._pieces))
-            interrupted_once(lambda: table.write_parquet(temporary, metadata=told))
+            interrupted_once(lambda: table.write_parquet(temporary, metadata=entries))
 
     @classmethod
     def read(cls, path: str | os.PathLike[str]) -> Snapshot:
@@ -77,13 +77,13 @@ class Snapshot:
             The file cannot be read.
         """
         path = as_path(path)
-        table, told = unless_damaged(path, lambda: read_sealed(path))
-        if told.get("ballrace") != f"snapshot {_FORMAT}" or _ENTRY not in told:
+        table, entries = unless_damaged(path, lambda: read_sealed(path))
+        if entries.get("ballrace") != f"snapshot {_FORMAT}" or _ENTRY not in entries:
             raise FileError(
                 str(path), "a Parquet file, but no snapshot of this version of ballrace"
             )
         piece = {name: samples(path, table, name) for name in table.columns}
-        return cls(told[_ENTRY], (piece,) if piece else ())
+        return cls(entries[_ENTRY], (piece,) if piece else ())
 
 
 def joined(pieces: list[Piece] | tuple[Piece, ...]) -> Piece:

@@ -113,8 +113,8 @@ class Signals(Columns):
         rest = len(self) - len(names)
         lines = "".join(waveform(name, self.units.get(name, ""), self[name]) for name in names)
         more = paragraph("", f"and {rest} more: print() names them") if rest else ""
-        told = paragraph(f"Signals of {self.scene.name!r}", size) + points(self.warnings)
-        return f"{told}<table>{lines}</table>{more}"
+        summary = paragraph(f"Signals of {self.scene.name!r}", size) + points(self.warnings)
+        return f"{summary}<table>{lines}</table>{more}"
 
     @property
     def t(self) -> NDArray[np.float64]:
@@ -169,8 +169,8 @@ class Signals(Columns):
     @property
     def defects(self) -> Mapping[str, Touched]:
         """How contacts met the defects that have a width, by their names."""
-        told = self._provenance.to_dict()["defects"]
-        return MappingProxyType({defect["name"]: Touched(**defect) for defect in told})
+        records = self._provenance.to_dict()["defects"]
+        return MappingProxyType({defect["name"]: Touched(**defect) for defect in records})
 
     @property
     def accuracy(self) -> Record | None:
@@ -265,9 +265,9 @@ class Signals(Columns):
         else:
             super().write(path, columns)
 
-    def _told(self) -> dict[str, Any]:
-        told = {"scene": self.scene.to_dict(), "provenance": self._provenance.to_dict()}
-        return {"shaft": shaft_of(self.scene), "metadata": told}
+    def _metadata(self) -> dict[str, Any]:
+        entries = {"scene": self.scene.to_dict(), "provenance": self._provenance.to_dict()}
+        return {"shaft": shaft_of(self.scene), "metadata": entries}
 
     def _known(self) -> dict[str, Any]:
         return {"shaft": shaft_of(self.scene), "scene": self.scene, "warnings": self.warnings}
@@ -319,8 +319,8 @@ class Signals(Columns):
             The folder does not exist or is not writable, or the disk is full.
         """
         with whole(path) as temporary, sealing(temporary, path):
-            table, told = self.to_polars(), metadata(self)
-            interrupted_once(lambda: table.write_parquet(temporary, metadata=told))
+            table, entries = self.to_polars(), metadata(self)
+            interrupted_once(lambda: table.write_parquet(temporary, metadata=entries))
 
     @classmethod
     def read_parquet(cls, path: str | os.PathLike[str]) -> Signals:
@@ -335,10 +335,10 @@ class Signals(Columns):
         """
         path = as_path(path)
         table, entries = unless_damaged(path, lambda: read_sealed(path))
-        told = described(path, entries, table.columns)
+        fields = described(path, entries, table.columns)
         times = samples(path, table, "t")
         columns = {name: samples(path, table, name) for name in table.columns if name != "t"}
-        return cls(t=times, columns=columns, **told)
+        return cls(t=times, columns=columns, **fields)
 
     @classmethod
     def scan_parquet(cls, path: str | os.PathLike[str]) -> Signals:

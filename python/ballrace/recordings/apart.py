@@ -264,12 +264,12 @@ def _answer(request: dict[str, Any]) -> Iterator[bytes | memoryview]:
         with _memory_limited(before):
             samples = read_here(path, form)
         groups = [samples, *samples.others]
-        told: dict[str, Any] = {"groups": [_told(group) for group in groups]}
+        answer: dict[str, Any] = {"groups": [_described(group) for group in groups]}
         columns = [x for group in groups for x in group.columns.values()]
     except (BallraceError, ImportError, OSError) as error:
-        told, columns = _told_of(error), []
-    told["worn"] = _memory.used() is None and (_memory.peak() or 0) > before + _WORN
-    yield json.dumps(told).encode() + b"\n"
+        answer, columns = _described_error(error), []
+    answer["worn"] = _memory.used() is None and (_memory.peak() or 0) > before + _WORN
+    yield json.dumps(answer).encode() + b"\n"
     for x in columns:
         yield np.ascontiguousarray(x, dtype=np.float64).data.cast("B")
 
@@ -294,12 +294,12 @@ def _memory_limited(before: int) -> Iterator[None]:
         done.set()
 
 
-def _told(samples: Samples) -> dict[str, Any]:
+def _described(samples: Samples) -> dict[str, Any]:
     rest = {name: getattr(samples, name) for name in ("fs", "units", "shaft", "metadata")}
     return {"sizes": {name: x.size for name, x in samples.columns.items()}, **rest}
 
 
-def _told_of(error: Exception) -> dict[str, Any]:
+def _described_error(error: Exception) -> dict[str, Any]:
     match error:
         case ImportError():
             return {"error": "ImportError", "arguments": [str(error)], "name": error.name}

@@ -132,7 +132,7 @@ class Columns(Mapping[str, NDArray[np.float64]]):
         xarray = needed("xarray", "an xarray data set", extra=None)
         variables = {name: ("t", self[name], {"units": self.units.get(name, "")}) for name in self}
         time = ("t", self.t, {"units": "s"})
-        attributes = {"sampling_rate": self.fs, "told": self._samples().told()}
+        attributes = {"sampling_rate": self.fs, "told": self._samples().header()}
         found: xr.Dataset = xarray.Dataset(variables, coords={"t": time}, attrs=attributes)
         return found
 
@@ -248,7 +248,7 @@ class Columns(Mapping[str, NDArray[np.float64]]):
             columns={name: self[name] for name in chosen},
             fs=float(self.fs),
             units={name: self.units.get(name, "") for name in chosen},
-            **self._told(),
+            **self._metadata(),
         )
 
     def _chosen(self, columns: str | Iterable[str] | None) -> list[str]:
@@ -270,7 +270,7 @@ class Columns(Mapping[str, NDArray[np.float64]]):
         """Return what is known of all columns, by the fields of a channel."""
 
     @abstractmethod
-    def _told(self) -> dict[str, Any]:
+    def _metadata(self) -> dict[str, Any]:
         """Return the metadata of all columns: the fields ``shaft`` and ``metadata`` of :class:`Samples`."""
 
     @abstractmethod

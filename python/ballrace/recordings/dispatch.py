@@ -104,10 +104,10 @@ def read(
 
 
 def _recording(path: Path, samples: Samples, fs: float | None) -> Recording:
-    told = _usable(path, samples.fs, fs)
-    if told is not None and fs is not None and not math.isclose(fs, told, rel_tol=1e-3):
-        raise SceneError("fs", str(fs), f"the rate in {path.name}, {told:g} Hz, or absent")
-    rate = fs if told is None else told
+    recorded = _usable(path, samples.fs, fs)
+    if recorded is not None and fs is not None and not math.isclose(fs, recorded, rel_tol=1e-3):
+        raise SceneError("fs", str(fs), f"the rate in {path.name}, {recorded:g} Hz, or absent")
+    rate = fs if recorded is None else recorded
     if rate is None:
         raise SceneError("fs", "None", f"the sampling rate [Hz], which {path.name} does not have")
     return Recording(
@@ -121,10 +121,10 @@ def _recording(path: Path, samples: Samples, fs: float | None) -> Recording:
     )
 
 
-def _usable(path: Path, told: float | None, fs: float | None) -> float | None:
+def _usable(path: Path, rate: float | None, fs: float | None) -> float | None:
     """Return the rate of a file; an unusable one counts as missing where another is given."""
-    if told is None or RATES[0] <= told <= RATES[1]:
-        return told
+    if rate is None or RATES[0] <= rate <= RATES[1]:
+        return rate
     if fs is None:
-        raise FileError(str(path), f"has a sampling rate of {told:g} Hz; give fs if you know it")
+        raise FileError(str(path), f"has a sampling rate of {rate:g} Hz; give fs if you know it")
     return None

@@ -9,7 +9,7 @@ import numpy as np
 from .._libraries import needed
 from ..errors import FileError
 from .limits import check_declared
-from .samples import RATES, Samples, from_told
+from .samples import RATES, Samples, from_header
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -22,7 +22,7 @@ def write(samples: Samples, temporary: Path, path: Path) -> None:
     h5py = needed("h5py", path.name)
     with h5py.File(temporary, "w") as file:
         file.attrs["sampling_rate"] = samples.fs
-        file.attrs["ballrace"] = samples.told()
+        file.attrs["ballrace"] = samples.header()
         for name, x in samples.columns.items():
             file.create_dataset(name, data=x).attrs["units"] = samples.units.get(name, "")
 
@@ -35,10 +35,10 @@ def read(path: Path) -> Samples:
     FileError
         It is damaged, no HDF5, or holds no such data set.
     """
-    arrays, units, told = contents(path)
-    if "ballrace" in told:
-        return from_told(path, str(told["ballrace"]), arrays)
-    rate = next((told[name] for name in RATES if name in told), None)
+    arrays, units, attributes = contents(path)
+    if "ballrace" in attributes:
+        return from_header(path, str(attributes["ballrace"]), arrays)
+    rate = next((attributes[name] for name in RATES if name in attributes), None)
     sizes = [x.size for x in arrays.values() if x.size > 1]
     longest = max(sizes, key=lambda size: size * sizes.count(size), default=0)
     columns = {name: x for name, x in arrays.items() if x.size == longest and longest}
@@ -60,7 +60,7 @@ def contents(
     h5py = needed("h5py", path.name)
     try:
         with h5py.File(path, "r") as file:
-            told = dict(file.attrs)
+            attributes = dict(file.attrs)
             nodes = _vectors(path, file, h5py)
             check_declared(path, sum(float(node.size) for node in nodes.values()))
             arrays = {n: np.asarray(x[()], dtype=np.float64).ravel() for n, x in nodes.items()}
@@ -70,7 +70,7 @@ def contents(
     except (OSError, RuntimeError, ValueError, KeyError, TypeError) as error:
         raise FileError(str(path), f"not an HDF5 file, or damaged ({error})") from error
     single = {name: float(x[0]) for name, x in arrays.items() if x.size == 1}
-    return {name: x for name, x in arrays.items() if x.size > 1}, units, {**single, **told}
+    return {name: x for name, x in arrays.items() if x.size > 1}, units, {**single, **attributes}
 
 
 def _vectors(path: Path, file: Any, h5py: Any) -> dict[str, Any]:

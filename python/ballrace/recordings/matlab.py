@@ -15,7 +15,7 @@ import numpy as np
 from ..errors import FileError, SceneError
 from .datasets import cwru, mfpt, paderborn, vectors
 from .hierarchical import contents
-from .samples import Samples, from_told
+from .samples import Samples, from_header
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -47,7 +47,7 @@ def write(samples: Samples, temporary: Path, path: Path) -> None:
         variables[f"{number}RPM"] = 60.0 * samples.shaft
     variables |= {
         "fs": samples.fs,
-        "ballrace": samples.told(),
+        "ballrace": samples.header(),
         "keys": np.array(keys, dtype=object),
     }
     savemat(temporary, variables, appendmat=False, do_compression=True)
@@ -87,11 +87,11 @@ def _variables(path: Path) -> dict[str, Any]:
 
 
 def _ours(path: Path, variables: dict[str, Any]) -> Samples:
-    told = str(variables["ballrace"])
+    header = str(variables["ballrace"])
     try:
         keys = np.atleast_1d(variables["keys"]).tolist()
         vectors = [np.atleast_1d(np.asarray(variables[key], dtype=np.float64)) for key in keys]
-        columns = dict(zip(json.loads(told)["columns"], vectors, strict=True))
+        columns = dict(zip(json.loads(header)["columns"], vectors, strict=True))
     except (KeyError, TypeError, ValueError) as error:
         raise FileError(str(path), f"damaged: a column is missing ({error!r})") from error
-    return from_told(path, told, columns)
+    return from_header(path, header, columns)

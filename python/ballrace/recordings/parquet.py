@@ -12,13 +12,13 @@ from .._io.record import samples as column_of
 from ..scene import Scene
 from .limits import check_declared
 from .sampled import sampled
-from .samples import Samples, from_told
+from .samples import Samples, from_header
 from .scenes import shaft_of
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-_TOLD = "ballrace.recording"
+_HEADER = "ballrace.recording"
 """Entry of the metadata with those of the columns."""
 
 
@@ -27,9 +27,9 @@ def write(samples: Samples, temporary: Path, path: Path) -> None:
     from .._polars import pl
 
     table = pl.DataFrame({"t": samples.t, **samples.columns})
-    told = {_TOLD: samples.told()}
+    entries = {_HEADER: samples.header()}
     with sealing(temporary, path):
-        interrupted_once(lambda: table.write_parquet(temporary, metadata=told))
+        interrupted_once(lambda: table.write_parquet(temporary, metadata=entries))
 
 
 def read(path: Path) -> Samples:
@@ -41,18 +41,18 @@ def read(path: Path) -> Samples:
         It is damaged, or no Parquet.
     """
     table, entries = unless_damaged(path, lambda: read_sealed(path, _check_size))
-    if _TOLD in entries:
+    if _HEADER in entries:
         columns = {name: column_of(path, table, name) for name in table.columns}
-        return from_told(path, entries[_TOLD], columns)
+        return from_header(path, entries[_HEADER], columns)
     if "ballrace" not in entries:
         return sampled(path, {name: table[name] for name in table.columns}, {})
-    told = described(path, entries, table.columns)
+    fields = described(path, entries, table.columns)
     return Samples(
-        columns={name: column_of(path, table, name) for name in told["units"]},
-        fs=told["fs"],
-        units=told["units"],
-        shaft=shaft_of(Scene.from_json(told["scene"])),
-        metadata={"scene": json.loads(told["scene"]), "provenance": told["provenance"]},
+        columns={name: column_of(path, table, name) for name in fields["units"]},
+        fs=fields["fs"],
+        units=fields["units"],
+        shaft=shaft_of(Scene.from_json(fields["scene"])),
+        metadata={"scene": json.loads(fields["scene"]), "provenance": fields["provenance"]},
     )
 
 

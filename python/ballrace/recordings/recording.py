@@ -79,11 +79,11 @@ class Recording(Columns):
         object.__setattr__(self, "units", MappingProxyType(units))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        told = {"columns": dict(self.columns), "units": dict(self.units)}
+        mappings = {"columns": dict(self.columns), "units": dict(self.units)}
         rest = {
             name: getattr(self, name) for name in ("fs", "shaft", "source", "metadata", "others")
         }
-        return _remade, (told | rest,)
+        return _remade, (mappings | rest,)
 
     @property
     def _columns(self) -> Mapping[str, NDArray[np.float64]]:
@@ -104,7 +104,7 @@ class Recording(Columns):
         """Times from the first sample, shape (n_samples,) [s]."""
         return np.arange(self.n_samples) / self.fs
 
-    def _told(self) -> dict[str, Any]:
+    def _metadata(self) -> dict[str, Any]:
         shaft = None if self.shaft is None else float(self.shaft)
         return {"shaft": shaft, "metadata": dict(self.metadata)}
 

@@ -64,7 +64,7 @@ class Samples:
         """Times from the first sample [s]; numbers of samples where the rate is not known."""
         return np.arange(self.n_samples) / (self.fs or 1.0)
 
-    def told(self) -> str:
+    def header(self) -> str:
         """Return as JSON all but the samples: ``columns`` in their order with their units, ``fs`` and so on."""
         units = {name: self.units.get(name, "") for name in self.columns}
         entries = {"columns": units, "fs": self.fs, "shaft": self.shaft, "metadata": self.metadata}
@@ -74,8 +74,8 @@ class Samples:
             raise SceneError("metadata", f"({error})", "what JSON can hold") from None
 
 
-def from_told(path: Path, text: str, columns: Mapping[str, NDArray[np.float64]]) -> Samples:
-    """Return columns with the metadata of :meth:`Samples.told`.
+def from_header(path: Path, text: str, columns: Mapping[str, NDArray[np.float64]]) -> Samples:
+    """Return columns with the metadata of :meth:`Samples.header`.
 
     Raises
     ------

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..errors import FileError, SceneError
-from .samples import Samples, from_told
+from .samples import Samples, from_header
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -41,7 +41,7 @@ def write(samples: Samples, temporary: Path, path: Path) -> None:
         raise SceneError("path", str(path), "a format for numbers that 32 bits do not hold")
     buffer = io.BytesIO()
     wavfile.write(buffer, round(fs), data)
-    temporary.write_bytes(_commented(buffer.getvalue(), samples.told()))
+    temporary.write_bytes(_commented(buffer.getvalue(), samples.header()))
 
 
 def read(path: Path) -> Samples:
@@ -64,9 +64,9 @@ def read(path: Path) -> Samples:
     except (ValueError, EOFError, struct.error, wavfile.WavFileWarning) as error:
         raise FileError(str(path), f"not a WAV file, or damaged ({error})") from error
     channels = data.reshape(len(data), -1).astype(np.float64).T
-    if told := _comment(content):
-        names = _names(told)
-        return from_told(path, told, dict(zip(names, channels, strict=False)))
+    if header := _comment(content):
+        names = _names(header)
+        return from_header(path, header, dict(zip(names, channels, strict=False)))
     unit, channels = _scaled(channels, data.dtype)
     names = [f"channel_{place + 1}" for place in range(len(channels))]
     columns = dict(zip(names, channels, strict=True))
@@ -100,8 +100,8 @@ def _comment(wav: bytes) -> str:
     return text if text.startswith('{"columns"') else ""
 
 
-def _names(told: str) -> list[str]:
+def _names(header: str) -> list[str]:
     try:
-        return list(json.loads(told)["columns"])
+        return list(json.loads(header)["columns"])
     except (ValueError, KeyError, TypeError):
         return []

@@ -35,8 +35,8 @@ def write(samples: Samples, temporary: Path, path: Path) -> None:
     columns = {"t [s]": samples.t}
     for name, x in samples.columns.items():
         unit = samples.units.get(name)
-        told = f"{name} [{unit}]" if unit else name
-        columns[f"'{told}" if _FORMULA.match(told) else told] = x
+        title = f"{name} [{unit}]" if unit else name
+        columns[f"'{title}" if _FORMULA.match(title) else title] = x
     with writing_to(path):
         pl.DataFrame(columns).write_csv(temporary)
 

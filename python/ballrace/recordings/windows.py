@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from .samples import Samples
 
-Told = list[dict[str, Any]] | None
+Entries = list[dict[str, Any]] | None
 """Entries of a nested column; None where nothing is known."""
 
 
@@ -44,9 +44,9 @@ class Origin:
     """
 
     speed: Callable[[float], float | None] = field(default=_unknown)
-    load: Callable[[float], Told] = field(default=_unknown)
-    geometry: Told = None
-    defect: Told = None
+    load: Callable[[float], Entries] = field(default=_unknown)
+    geometry: Entries = None
+    defect: Entries = None
     version: str | None = None
 
     @property
@@ -83,7 +83,7 @@ def windows(
     middles = ((starts + length / 2) / samples.fs).tolist()
     rows = len(starts)
     kind = pl.String if bearing_id is None else None
-    told = {
+    nested = {
         "load": [origin.load(at) for at in middles],
         "geometry": [origin.geometry] * rows,
         "defect": [origin.defect] * rows,
@@ -95,7 +95,7 @@ def windows(
             "label": pl.Series([origin.label if label is None else label] * rows, dtype=pl.String),
             "bearing_id": pl.Series([bearing_id] * rows, dtype=kind),
             "speed": pl.Series([origin.speed(at) for at in middles], dtype=pl.Float64),
-            **{name: pl.Series(told[name], dtype=kind) for name, kind in _types().items()},
+            **{name: pl.Series(nested[name], dtype=kind) for name, kind in _types().items()},
             "sampling_rate": [samples.fs] * rows,
             "units": [{name: samples.units.get(name, "") for name in samples.columns}] * rows,
             "version": pl.Series([origin.version] * rows, dtype=pl.String),
