@@ -14,7 +14,7 @@ import pytest
 
 import ballrace as br
 from ballrace.campaigns import Progress
-from ballrace.campaigns.progress import Counts, Teller
+from ballrace.campaigns.progress import Counts, ProgressDisplay
 from sweeps import DURATION, SCENE, comparable, run, same, table
 
 
@@ -255,12 +255,12 @@ def test_a_terminal_sees_a_bar() -> None:
             return True
 
     stream = Terminal()
-    teller = Teller(progress=True, total=10, before=2, stream=stream)
-    teller.tell(Counts(done=3, failed=1))
+    display = ProgressDisplay(progress=True, total=10, before=2, stream=stream)
+    display.update(Counts(done=3, failed=1))
     bar = stream.getvalue()
     assert bar.startswith(f"\r[{15 * '#'}{15 * '.'}] 5/10, 1 failed, ")
     assert bar.rstrip().endswith(" s left")
-    teller.end()
+    display.end()
     assert "campaign: 5 of 10 cases, 2 from before, 1 failed, " in stream.getvalue()
     assert stream.getvalue().endswith("\n")
 

@@ -95,10 +95,10 @@ class Spread:
         *,
         executor: Executor,
         in_flight: int,
-        told: Callable[[Counts], object],
+        on_progress: Callable[[Counts], object],
     ) -> None:
         self._store, self._handout, self._job = store, handout, job
-        self._executor, self._in_flight, self._told = executor, in_flight, told
+        self._executor, self._in_flight, self._on_progress = executor, in_flight, on_progress
         self._own: ProcessPoolExecutor | None = None
         self._stop = uuid.uuid4().hex
         self._pending: dict[Future[str], list[Document]] = {}
@@ -112,7 +112,7 @@ class Spread:
                 ended = wait(self._pending, timeout=0.1, return_when=FIRST_COMPLETED).done
                 _check_scheduler(self._executor)
                 self._take(ended)
-                self._told(self._counts)
+                self._on_progress(self._counts)
         finally:
             self._end()
 
@@ -159,7 +159,7 @@ class Spread:
     def _account(self, result: dict[str, Any]) -> None:
         self._counts = self._counts.plus(Counts(*result["counts"]))
         self._seconds += result["wall_time"]
-        self._told(self._counts)
+        self._on_progress(self._counts)
         if result["error"]:
             raise from_record(result["error"])
 
@@ -266,14 +266,14 @@ def run_task(text: str) -> str:
 
     stop = _stopped(store, task["stop"])
 
-    def told(counts: Counts) -> None:
+    def on_progress(counts: Counts) -> None:
         result["counts"] = counts
         if stop.exists():
             raise CampaignError("the campaign was stopped")
 
     began = time.monotonic()
     try:
-        run_here(store, task["cases"], job, told)
+        run_here(store, task["cases"], job, on_progress)
     except BallraceError as error:
         return json.dumps({**result, "error": record_of(error)})
     result["wall_time"] = (time.monotonic() - began) * (job.threads or available_threads())

@@ -73,10 +73,10 @@ def pool_like(executor: Any) -> ProcessPoolExecutor | None:
     """Return a pool as one that has broken was, or None where it is of another kind."""
     if not isinstance(executor, ProcessPoolExecutor):
         return None
-    told: Any = executor
+    broken: Any = executor
     return ProcessPoolExecutor(
-        told._max_workers,
-        mp_context=told._mp_context,
-        initializer=told._initializer,
-        initargs=told._initargs,
+        broken._max_workers,
+        mp_context=broken._mp_context,
+        initializer=broken._initializer,
+        initargs=broken._initargs,
     )

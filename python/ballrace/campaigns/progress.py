@@ -90,7 +90,7 @@ def duration(seconds: float) -> str:
     return f"{minutes} min" if minutes < 100 else f"{minutes // 60} h {minutes % 60:02d} min"
 
 
-class Teller:
+class ProgressDisplay:
     """Shows progress: a bar in a terminal or notebook, else one line at the end; or a callback."""
 
     def __init__(
@@ -112,7 +112,7 @@ class Teller:
             names = printable(", ".join(labels))
             self._write(f"campaign: columns that are labels and change nothing: {names}\n")
 
-    def tell(self, counts: Counts) -> None:
+    def update(self, counts: Counts) -> None:
         """Take note of how many cases have come to their end, and show it."""
         done, failed, warned = counts
         elapsed = time.monotonic() - self._began

@@ -27,7 +27,7 @@ from .estimate import Estimate, estimate
 from .executors import Spread, executor_of, tasks_on_a_machine
 from .handout import Handout
 from .locks import hold, in_turn
-from .progress import Counts, Progress, Teller
+from .progress import Counts, Progress, ProgressDisplay
 from .result import Campaign
 from .shards import set_aside
 from .store import Store
@@ -294,21 +294,21 @@ def _run(
         _write_table(plan, store)
         _set_aside(store, damaged)
         total = len(plan.ids())
-        teller = Teller(progress, total, total - len(missing), labels=plan.cases.labels)
+        display = ProgressDisplay(progress, total, total - len(missing), labels=plan.cases.labels)
         try:
             if missing:
-                _guarded(plan, store, missing, in_flight, teller)
+                _guarded(plan, store, missing, in_flight, display)
         finally:
-            teller.end()
+            display.end()
         result = Campaign(store)
-        _tell_of_levels(store, result)
+        _warn_of_levels(store, result)
         if not (result.manifest["status"] == "missing").any():
             store.write_table("manifest.parquet", result.manifest)
     return result
 
 
 def _guarded(
-    plan: Plan, store: Store, missing: list[int], in_flight: int | None, teller: Teller
+    plan: Plan, store: Store, missing: list[int], in_flight: int | None, display: ProgressDisplay
 ) -> None:
     """Run what is missing; whatever stops it says what is safe and how to go on."""
 
@@ -317,10 +317,10 @@ def _guarded(
             count = len(plan.ids().keys() & set(store.results([])["case_id"]))
         except CampaignError:
             return f"finished cases are safe in {store.root}; call again to go on"
-        return f"{count} of {teller.now.total} cases are safe in {store.root}; call again to go on"
+        return f"{count} of {display.now.total} cases are safe in {store.root}; call again to go on"
 
     try:
-        _work(plan, store, missing, in_flight, teller)
+        _work(plan, store, missing, in_flight, display)
     except KeyboardInterrupt:
         raise KeyboardInterrupt(f"interrupted; {safe()}") from None
     except CampaignError as error:
@@ -328,7 +328,7 @@ def _guarded(
 
 
 def _work(
-    plan: Plan, store: Store, missing: list[int], in_flight: int | None, teller: Teller
+    plan: Plan, store: Store, missing: list[int], in_flight: int | None, display: ProgressDisplay
 ) -> None:
     cases = [(i, plan.cases.cases[i]) for i in missing]
     todo = [i for i, case in cases if case.error is None]
@@ -336,21 +336,28 @@ def _work(
     refused = Counts(len(failed), len(failed))
     if failed:
         record_failed(store, failed)
-        teller.tell(refused)
+        display.update(refused)
 
-    def told(counts: Counts) -> None:
-        teller.tell(counts.plus(refused))
+    def on_progress(counts: Counts) -> None:
+        display.update(counts.plus(refused))
 
     documents = plan.documents(todo)
     if plan.executor is None:
-        run_here(store, documents, plan.job, told)
+        run_here(store, documents, plan.job, on_progress)
     else:
         most = in_flight or 2 * (plan.workers or os.cpu_count() or 1)
         handout = Handout(documents, len(todo), plan.job.retries)
-        Spread(store, handout, plan.job, executor=plan.executor, in_flight=most, told=told).run()
+        Spread(
+            store,
+            handout,
+            plan.job,
+            executor=plan.executor,
+            in_flight=most,
+            on_progress=on_progress,
+        ).run()
 
 
-def _tell_of_levels(store: Store, result: Campaign) -> None:
+def _warn_of_levels(store: Store, result: Campaign) -> None:
     """Warn where cases ran on different vector instructions, as after a move to another machine."""
     levels = sorted(result.manifest["simd"].drop_nulls().unique())
     if len(levels) > 1:

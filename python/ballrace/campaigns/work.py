@@ -133,12 +133,12 @@ class Writer:
 
 
 def run_here(
-    store: Store, cases: Iterable[Document], job: Job, told: Callable[[Counts], object]
+    store: Store, cases: Iterable[Document], job: Job, on_progress: Callable[[Counts], object]
 ) -> None:
     """Run cases on threads of this process and write what they give.
 
-    Cases are drawn as threads become free; ``told`` is given the numbers of cases so far, some twenty times a
-    second.
+    Cases are drawn as threads become free; ``on_progress`` is given the numbers of cases so far, some twenty times
+    a second.
     """
     ids: list[str] = []
     writer = Writer(store)
@@ -158,7 +158,7 @@ def run_here(
             counts = counts.plus(Counts(1, "error" in record, bool(record.get("warnings"))))
             writer.add(ids[index], record, signals)
         writer.flush_when_due()
-        told(counts)
+        on_progress(counts)
 
     try:
         _core.campaign(documents(), job.threads, job.sharing, job.features, job.keep_signals, done)
