@@ -1,4 +1,4 @@
-"""Reports tell the numbers of what they report on."""
+"""Reports have the numbers of what they report on."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def out() -> br.Signals:
     return br.simulate(scene, duration=0.05)
 
 
-def told(path: Path) -> str:
+def text_of(path: Path) -> str:
     """The text of a page without scripts, styles and marks."""
     text = path.read_text(encoding="utf-8")
     text = re.sub(r"<(script|style)\b.*?</\1>", " ", text, flags=re.DOTALL)
@@ -35,7 +35,7 @@ def told(path: Path) -> str:
 def test_a_run(out: br.Signals, tmp_path: Path) -> None:
     path = tmp_path / "report.html"
     out.report(path)
-    text = told(path)
+    text = text_of(path)
     eq = br.equilibrium(out.scene.replace({"defects": {}}))
     rates, life = br.fault_frequencies(out), br.rating_life(out.scene)
     found = out.features(columns=["outer.ay"])
@@ -58,12 +58,12 @@ def test_a_read_run_reports_the_same(out: br.Signals, tmp_path: Path) -> None:
     out.write_parquet(tmp_path / "out.parquet")
     out.report(tmp_path / "a.html")
     br.Signals.read_parquet(tmp_path / "out.parquet").report(tmp_path / "b.html")
-    assert told(tmp_path / "a.html") == told(tmp_path / "b.html")
+    assert text_of(tmp_path / "a.html") == text_of(tmp_path / "b.html")
 
 
 def test_columns_and_title(out: br.Signals, tmp_path: Path) -> None:
     out.report(tmp_path / "r.html", columns=["outer.ax", "inner.ay"], title="A <b> & c")
-    text = told(tmp_path / "r.html")
+    text = text_of(tmp_path / "r.html")
     assert "Signal: horizontal acceleration, outer ring" in text
     assert "Signal: vertical acceleration, inner ring" in text
     assert text.startswith("A <b> & c")
@@ -73,7 +73,7 @@ def test_warnings_stand_on_the_page(wheel: br.Scene, tmp_path: Path) -> None:
     with pytest.warns(br.SceneWarning, match="density"):
         heavy = br.simulate(wheel.replace({"materials.balls.density": 2.0e5}), duration=0.001)
     heavy.report(tmp_path / "r.html")
-    assert "Warning: " + " ".join(heavy.warnings[0].split()) in told(tmp_path / "r.html")
+    assert "Warning: " + " ".join(heavy.warnings[0].split()) in text_of(tmp_path / "r.html")
 
 
 def test_a_bearing_that_no_equilibrium_holds(tmp_path: Path) -> None:
@@ -83,7 +83,7 @@ def test_a_bearing_that_no_equilibrium_holds(tmp_path: Path) -> None:
     with pytest.raises(br.EquilibriumError):
         br.equilibrium(scene)
     out.report(tmp_path / "r.html")
-    assert "no static solution" in told(tmp_path / "r.html")
+    assert "no static solution" in text_of(tmp_path / "r.html")
 
 
 def test_bad_arguments_leave_nothing(out: br.Signals, tmp_path: Path) -> None:
@@ -121,7 +121,7 @@ def test_a_campaign(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(br.plot, "campaign_map", remembered)
     done.report(tmp_path / "r.html", features=["outer.ay.rms"])
     assert sorted(map(set, mapped), key=str) == [{False}, {True}]
-    text = told(tmp_path / "r.html")
+    text = text_of(tmp_path / "r.html")
     assert "2 of 6 cases failed" in text
     assert done.failed["message"][0][:30] in text
     over = "outer.ay.rms over loads.axial.force and defects.spall.width: the mean of the cases of each cell"
@@ -131,10 +131,10 @@ def test_a_campaign(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         done.report(tmp_path / "r.html", features=["outer.rms"])
 
 
-def test_demo_tells_which_row_and_why(tmp_path: Path) -> None:
+def test_demo_says_which_row_and_why(tmp_path: Path) -> None:
     cases = {k: demo.run_case(v, 0.03) for k, v in demo.AXIAL_LOADS.items()}
     demo.write(cases, tmp_path)
-    text = told(tmp_path / "demo.html")
+    text = text_of(tmp_path / "demo.html")
     none, towards, away = cases.values()
     low, high = none.spall
     row = none.out.scene.rows[0]
@@ -164,7 +164,7 @@ def test_a_page_escapes_what_it_is_given() -> None:
     page.text("<u>")
     page.warning("<u>")
     page.points(["<u>"])
-    page.told([("<u>", "<u>")])
+    page.facts([("<u>", "<u>")])
     page.table(["<u>"], [["<u>"]])
     page.folded("<u>", "</pre><u>")
     assert "<u>" not in page.html()
@@ -177,8 +177,8 @@ def test_a_scene_in_words() -> None:
     assert ("Cage", "none") in words.model(quiet)
     assert ("Friction", "none") in words.model(quiet)
     oil = br.scene.Lubricant.named("vg68", temperature_c=55.0)
-    told = dict(words.model(replace(quiet, lubricant=oil)))
-    assert told["Lubricant"] == "vg68 at 55 °C, with its film, damping, traction, rolling"
+    rows = dict(words.model(replace(quiet, lubricant=oil)))
+    assert rows["Lubricant"] == "vg68 at 55 °C, with its film, damping, traction, rolling"
     assert "Lubricant" not in dict(words.model(quiet))
     assert [what for what, _ in words.bearing(scene)] == ["Row 0", "Row 1", "Defect"]
 
@@ -203,4 +203,4 @@ ODD: dict[str, dict[str, object]] = {
 def test_every_scene_that_runs_has_a_report(name: str, duration: float, tmp_path: Path) -> None:
     out = br.simulate(br.bearing("6205").replace(ODD[name]), duration=duration, settle=0.0)
     out.report(tmp_path / "r.html")
-    assert "Provenance" in told(tmp_path / "r.html")
+    assert "Provenance" in text_of(tmp_path / "r.html")

@@ -33,9 +33,9 @@ def page(cases: Mapping[str, Case]) -> Page:
     _where(made, none, towards)
     _zones(made, cases)
     _loads(made, cases)
-    _heard(made, cases)
+    _vibration(made, cases)
     _spectra(made, cases)
-    _told(made, none, towards, away)
+    _why(made, none, towards, away)
     add_model(made, towards.out)
     add_provenance(made, towards.out)
     return made
@@ -52,7 +52,7 @@ def _where(made: Page, none: Case, towards: Case) -> None:
         f"presses. Seen from the middle of that row it reaches from {low:.2f} to {high:.2f} mm towards +z. Thrust "
         "along +z on the inner ring is carried by row 0, thrust along −z by row 1."
     )
-    made.told(words.bearing(scene))
+    made.facts(words.bearing(scene))
     made.figure(
         plot.section(scene),
         "the bearing cut through its axis, with 3 kN of thrust towards the faulted row. Boundary dimensions are "
@@ -105,7 +105,7 @@ def _loads(made: Page, cases: Mapping[str, Case]) -> None:
     )
 
 
-def _heard(made: Page, cases: Mapping[str, Case]) -> None:
+def _vibration(made: Page, cases: Mapping[str, Case]) -> None:
     from .. import plot
 
     made.section("Vibration")
@@ -151,7 +151,7 @@ def _spectra(made: Page, cases: Mapping[str, Case]) -> None:
     )
 
 
-def _told(made: Page, none: Case, towards: Case, away: Case) -> None:
+def _why(made: Page, none: Case, towards: Case, away: Case) -> None:
     made.section("Why")
     (_, _, _, before), (_, _, _, louder), (_, _, _, softer) = (
         case.numbers for case in (none, towards, away)
@@ -159,11 +159,11 @@ def _told(made: Page, none: Case, towards: Case, away: Case) -> None:
     moved = 1e3 * (towards.zone.middle - none.zone.middle)
     loads = f"{none.zone.force:.0f} to {towards.zone.force:.0f} N"
     change = 100.0 * (louder / before - 1.0)
-    told = (
+    text = (
         f"Thrust of 3 kN towards the faulted row moves the middle of the contact by {moved:.2f} mm onto the spall "
         f"and presses the ball harder ({loads} radially): impacts go from {before:.1f} to {louder:.1f} m/s², "
         f"{change:+.0f} %. Thrust away from it takes the load off the row ({away.zone.force:.0f} N) and the "
         f"contact off the spall: {softer:.1f} m/s² are left. The spall is the same; a radial model, in which a "
         "ball meets a race in its middle plane whatever the thrust, could not distinguish these three."
     )
-    made.text(told.replace("-", "−"))
+    made.text(text.replace("-", "−"))

@@ -86,19 +86,19 @@ def with_ratios(
     rate : float
         Rate of the shaft [Hz].
     """
-    told = _told(evidence, diameter, rate)
+    row = _as_row(evidence, diameter, rate)
     ratios = {
-        part: _ratio(part, evidence[part].role, told, diameter is not None) for part in ACCUSED
+        part: _ratio(part, evidence[part].role, row, diameter is not None) for part in ACCUSED
     }
     return {part: replace(one, ratio=ratios.get(part)) for part, one in evidence.items()}
 
 
-def _ratio(part: Part, role: Part, told: NDArray[Any], sized: bool) -> float:
+def _ratio(part: Part, role: Part, row: NDArray[Any], sized: bool) -> float:
     """Return the ratio of a part by the records of the library with the part that has its role."""
     rows = judged()
     model = fitted(role, sized)
     prior = np.count_nonzero(rows["part"] == role) / np.count_nonzero(rows["part"] != role)
-    ratio = prior / odds_of(model, rows_of(part, told, sized))[0]
+    ratio = prior / odds_of(model, rows_of(part, row, sized))[0]
     return float(np.clip(ratio, 1.0 / _LARGEST, _LARGEST))
 
 
@@ -109,7 +109,7 @@ def judged() -> NDArray[Any]:
     return found
 
 
-def _told(evidence: Mapping[Part, Evidence], diameter: float | None, rate: float) -> NDArray[Any]:
+def _as_row(evidence: Mapping[Part, Evidence], diameter: float | None, rate: float) -> NDArray[Any]:
     """Return evidence as a row of the library."""
     row: dict[str, float] = {"kurtosis": evidence[ACCUSED[0]].strength.kurtosis}
     for part in ACCUSED:

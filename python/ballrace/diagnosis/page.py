@@ -33,14 +33,14 @@ def diagnosis_page(of: Diagnosis, title: str | None = None) -> Page:
         page.warning(note)
     page.section("Record and bearing")
     nominal = f"nominal {number(of.shaft.nominal, 5)} Hz"
-    told = (
+    source = (
         "from the record's shaft orders"
         if of.shaft.by == "record"
         else "the nominal one; the record's are not clear"
     )
-    page.told([
+    page.facts([
         ("Bearing", of.bearing), ("Record", of.record), ("Unit", of.unit or "not known"),
-        ("Shaft", f"{number(of.shaft.rate, 6)} Hz, {told} ({nominal})"),
+        ("Shaft", f"{number(of.shaft.rate, 6)} Hz, {source} ({nominal})"),
         ("False alarms asked for", f"{100.0 * of.false_alarm:g} % of healthy records: z above {of.threshold:.2f}"),
     ])  # fmt: skip
     if of.evidence:
@@ -103,7 +103,7 @@ def _add_severity(page: Page, of: Diagnosis) -> None:
         if found.machine is None
         else found.machine.replace("_", ", ")
     )
-    page.told([
+    page.facts([
         (f"Velocity, {found.band[0]:g} to {found.band[1]:g} Hz, mm/s rms", number(found.velocity, 3)),
         ("Zone by ISO 20816-3", f"{found.zone or '–'} ({machine})"),
         ("Crest factor in the deciding band", number(found.crest_factor, 3)),
@@ -112,5 +112,5 @@ def _add_severity(page: Page, of: Diagnosis) -> None:
     if found.change is not None:
         ratios = (("velocity", found.change.velocity), ("crest factor", found.change.crest_factor),
                   ("kurtosis", found.change.kurtosis))  # fmt: skip
-        told = ", ".join(f"{name} {number(ratio, 3)}" for name, ratio in ratios)
-        page.text(f"Times those of the reference record: {told}.")
+        changes = ", ".join(f"{name} {number(ratio, 3)}" for name, ratio in ratios)
+        page.text(f"Times those of the reference record: {changes}.")

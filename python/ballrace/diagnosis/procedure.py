@@ -27,7 +27,7 @@ from .severity import checked_machine, severity_of
 from .shaft import ShaftRate
 from .strength import has_background, limits_of
 from .verdict import decided, own_lines
-from .width import sized, untold
+from .width import sized, unknown_width
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -161,10 +161,10 @@ def diagnose(
     orders, rates = other_rates(exclude, mains)
     machine = checked_machine(machine)
     shaft = ShaftRate(rate=nominal, nominal=nominal, by="nominal", z=0.0)
-    told = _undecided(channel, kinematics, shaft, false_alarm)
+    undecided = _undecided(channel, kinematics, shaft, false_alarm)
     lack = lack_of(channel, nominal, kinematics, len(bands_for(channel, kinematics, nominal)))
     if lack is not None:
-        return replace(told, why=lack)
+        return replace(undecided, why=lack)
     found = examined(
         channel, kinematics, nominal, within=within, orders=orders, rates=rates, seed=seed
     )
@@ -192,7 +192,7 @@ def diagnose(
     damaged = [evidence[part] for part in verdict.parts]
     size = sized(channel.x, channel.fs, shaft.rate, kinematics, damaged)
     return replace(
-        told, verdict=verdict.verdict, parts=verdict.parts, why=verdict.why, evidence=evidence, shaft=shaft,
+        undecided, verdict=verdict.verdict, parts=verdict.parts, why=verdict.why, evidence=evidence, shaft=shaft,
         severity=severity, width=size.width, _size=size, _levels=found.levels, _bands=tuple(bands),
     )  # fmt: skip
 
@@ -208,7 +208,7 @@ def _undecided(
     channel: Channel, kinematics: Kinematics, shaft: ShaftRate, false_alarm: float
 ) -> Diagnosis:
     """Return what is known before there is evidence."""
-    size = untold("no part is called damaged")
+    size = unknown_width("no part is called damaged")
     record = (
         f"{channel.name or 'signal'}, {channel.n_samples / channel.fs:.4g} s at {channel.fs:g} Hz"
     )

@@ -30,11 +30,11 @@ def against(
     )
     band = max((of.evidence[part] for part in ACCUSED), key=lambda one: one.z).band
     if channel.unit != of.unit or band[1] > channel.fs / 2.0:
-        told = f"{channel.fs:g} Hz in {channel.unit or 'no unit'}"
+        given = f"{channel.fs:g} Hz in {channel.unit or 'no unit'}"
         allowed = (
             f"a record in {of.unit or 'no unit'} that reaches the deciding band, {band[1]:.0f} Hz"
         )
-        raise SceneError("reference", told, allowed)
+        raise SceneError("reference", given, allowed)
     envelopes = Envelopes(channel.x, channel.fs, [band])
     before = severity_of(channel, of.shaft.rate, envelopes, 0, of.severity.machine)
     return replace(of, severity=of.severity.over(before))

@@ -101,8 +101,8 @@ class Diagnosis:
     def _repr_html_(self) -> str:
         """Return the verdict and a table of the evidence, as notebooks show it."""
         what = self.verdict + "".join(f", {NAMES[part]}" for part in self.parts)
-        told = paragraph(f"{self.bearing}: {what}.", f"{capital(reason(self))}.")
-        return told + table(header_of(self.unit), self.rows())
+        summary = paragraph(f"{self.bearing}: {what}.", f"{capital(reason(self))}.")
+        return summary + table(header_of(self.unit), self.rows())
 
     def _row(self, one: Evidence) -> int:
         """Return the row of the levels in which a part stands out most."""
@@ -251,8 +251,8 @@ def ratio_of(one: Evidence) -> str:
     if one.ratio is None:
         return "–"
     many = max(one.ratio, 1.0 / one.ratio)
-    told = f"{many:.0f}" if many >= 9.5 else f"{many:.1f}"
-    return f"{told} : 1" if one.ratio >= 1.0 else f"1 : {told}"
+    odds = f"{many:.0f}" if many >= 9.5 else f"{many:.1f}"
+    return f"{odds} : 1" if one.ratio >= 1.0 else f"1 : {odds}"
 
 
 def _short(one: Evidence) -> str:

@@ -66,5 +66,5 @@ def _rank(found: Diagnosis) -> tuple[int, float]:
 
 
 def _named(rows: list[int]) -> str:
-    told = " and ".join(map(str, rows))
-    return f"row {told}" if len(rows) == 1 else f"rows {told}"
+    numbers = " and ".join(map(str, rows))
+    return f"row {numbers}" if len(rows) == 1 else f"rows {numbers}"

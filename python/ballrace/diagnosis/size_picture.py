@@ -34,8 +34,8 @@ def size_picture(
         fig.add_vline(x=at, line={"color": "#444", "dash": "dot"}, annotation_text=name)
     fig.update_xaxes(title_text="arc along the race since the first event / mm")
     fig.update_yaxes(title_text="squared envelope over its mean")
-    told = f"{NAMES[width.part]}, events {1e3 * width.spacing:.2f} mm apart"
-    return finished(fig, {"title": {"text": told, "font": {"size": 15}}} | layout, height=380)
+    title = f"{NAMES[width.part]}, events {1e3 * width.spacing:.2f} mm apart"
+    return finished(fig, {"title": {"text": title, "font": {"size": 15}}} | layout, height=380)
 
 
 def _add_pass(fig: go.Figure, of: Sized | None, name: str, line: int) -> None:

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from .kinematics import Kinematics
     from .passes import Passes
 
-__all__ = ["Sized", "Width", "along", "are_clear", "bridged", "sized", "untold"]
+__all__ = ["Sized", "Width", "along", "are_clear", "bridged", "sized", "unknown_width"]
 
 _RACES = ("outer_race", "inner_race")
 
@@ -74,7 +74,7 @@ class Sized:
     averaged: AveragedPass | None = None
 
 
-def untold(why: str, part: Part | None = None) -> Sized:
+def unknown_width(why: str, part: Part | None = None) -> Sized:
     """Return a width that is not known, with the reason."""
     width = Width(part=part, value=None, interval=None, spacing=None, why=f"not known: {why}")
     return Sized(width=width)
@@ -98,20 +98,20 @@ def sized(
     """
     one = next((each for each in damaged if each.part in _RACES), None)
     if one is None:
-        return untold("no race is damaged")
+        return unknown_width("no race is damaged")
     row = kinematics.row
     if row is None:
-        return untold("only orders of the bearing are known, not its dimensions", one.part)
+        return unknown_width("only orders of the bearing are known, not its dimensions", one.part)
     rate = one.order * one.factor * shaft
     speed = along(row, one.part, rate, one.contact_angle or row.contact_angle)
     found = passes_of(x, fs, speed)
     if found is None:
-        return untold(
+        return unknown_width(
             "no band of the record resolves a pass: raise the sampling rate, or lower the speed",
             one.part,
         )
     if not _stands_out(found.height, found.above, found.bands, found.agreeing):
-        return untold(_unclear(row.ball_diameter), one.part)
+        return unknown_width(_unclear(row.ball_diameter), one.part)
     return Sized(
         width=_read(found, one.part, row.ball_diameter),
         ball_diameter=row.ball_diameter,

@@ -24,7 +24,7 @@ def add_bearing(page: Page, scene: Scene) -> None:
     from ..plot.outlines import outlines
 
     page.section("The bearing")
-    page.told(words.bearing(scene))
+    page.facts(words.bearing(scene))
     assumed = (
         " Its boundary dimensions are not given, and drawn as common."
         if outlines(scene).assumed
@@ -54,11 +54,11 @@ def add_loads(page: Page, scene: Scene) -> None:
         plot.load_distribution(around), "load of a ball on the outer race wherever it stands."
     )
     for row in range(len(scene.rows)):
-        told = (
+        caption = (
             "contacts on both races, unrolled, with their forces; defects in red with their names."
         )
         name = f" Row {row}." if len(scene.rows) > 1 else ""
-        page.figure(plot.unrolled(scene, eq, row=row), told + name)
+        page.figure(plot.unrolled(scene, eq, row=row), caption + name)
     _add_pressures(page, eq, len(scene.rows))
     _add_life(page, scene, around)
 
@@ -92,7 +92,7 @@ def _add_life(page: Page, scene: Scene, around: LoadDistribution) -> None:
     except BallraceError as error:
         page.text(f"No rating life: {error}.")
         return
-    page.told(_life(life))
+    page.facts(_life(life))
     page.text(
         "Lives are of the bearing without its defects, at 90 % reliability. ISO 281 takes one equivalent load; "
         "ISO/TS 16281 takes the load of every ball, so clearance and contact angles count. Loads that change are "
@@ -106,14 +106,14 @@ def _add_life(page: Page, scene: Scene, around: LoadDistribution) -> None:
 
 
 def _life(life: RatingLife) -> list[tuple[str, str]]:
-    told = [("Basic dynamic load rating C", f"{words.large(life.rating)} N ({life.source})")]
+    entries = [("Basic dynamic load rating C", f"{words.large(life.rating)} N ({life.source})")]
     if life.equivalent_load is not None and life.basic is not None:
-        told.append(("Equivalent load P, ISO 281", f"{words.large(life.equivalent_load)} N"))
-        told.append(("Basic rating life L₁₀, ISO 281", words.lasting(life, life.basic)))
-    told.append(
+        entries.append(("Equivalent load P, ISO 281", f"{words.large(life.equivalent_load)} N"))
+        entries.append(("Basic rating life L₁₀, ISO 281", words.lasting(life, life.basic)))
+    entries.append(
         ("Basic reference rating life L₁₀ᵣ, ISO/TS 16281", words.lasting(life, life.reference))
     )
     if life.modified is not None and life.factor is not None:
         of = f"a_ISO {life.factor.value:.2g}, κ {life.factor.kappa:.2g}"
-        told.append((f"Modified life L₁₀ₘᵣ, {of}", words.lasting(life, life.modified)))
-    return told
+        entries.append((f"Modified life L₁₀ₘᵣ, {of}", words.lasting(life, life.modified)))
+    return entries

@@ -95,11 +95,11 @@ def _add_maps(page: Page, table: pl.DataFrame, varied: list[str], names: list[st
         }
     for name in names:
         for which, part in parts.items():
-            told = (
+            caption = (
                 f"{name} over {grids[0]} and {grids[1]}: the mean of the cases of each cell{which}."
             )
             if part[name].drop_nulls().len():
-                page.figure(plot.campaign_map(part, grids[0], grids[1], name), told)
+                page.figure(plot.campaign_map(part, grids[0], grids[1], name), caption)
 
 
 def _add_distributions(page: Page, table: pl.DataFrame, names: list[str]) -> None:
@@ -117,8 +117,8 @@ def _add_distributions(page: Page, table: pl.DataFrame, names: list[str]) -> Non
 
 def _fault(table: pl.DataFrame) -> str | None:
     """Return the column of faults, if there is one, that separates damaged cases from others."""
-    told = (f"fault_{on}" for on in SURFACES if f"fault_{on}" in table.columns)
-    return next((name for name in told if table[name].drop_nulls().n_unique() > 1), None)
+    names = (f"fault_{on}" for on in SURFACES if f"fault_{on}" in table.columns)
+    return next((name for name in names if table[name].drop_nulls().n_unique() > 1), None)
 
 
 def _add_troubles(page: Page, table: pl.DataFrame, varied: list[str]) -> None:
@@ -129,7 +129,7 @@ def _add_troubles(page: Page, table: pl.DataFrame, varied: list[str]) -> None:
     warned = table.filter(pl.col("warnings").is_not_null())
     if failed.is_empty() and warned.is_empty():
         page.text("None: every case that ran gave a result without a warning.")
-    for name, part, told in (
+    for name, part, column in (
         ("failed", failed, "message"),
         ("ran with a warning", warned, "warnings"),
     ):
@@ -137,7 +137,7 @@ def _add_troubles(page: Page, table: pl.DataFrame, varied: list[str]) -> None:
             continue
         page.warning(f"{part.height} of {table.height} cases {name}.")
         rows = [
-            [str(line["case_id"])[:12], *(str(line[v]) for v in varied), str(line[told])]
+            [str(line["case_id"])[:12], *(str(line[v]) for v in varied), str(line[column])]
             for line in part.head(_SHOWN).to_dicts()
         ]
         page.table(["case", *varied, "why"], rows)
@@ -150,7 +150,7 @@ def _add_effort(page: Page, table: pl.DataFrame) -> None:
     ran = table.filter(status="ok")
     versions = sorted({str(v) for v in ran["version"].drop_nulls()})
     levels = sorted({str(v) for v in ran["simd"].drop_nulls()})
-    page.told([
+    page.facts([
         ("Version of the solver", ", ".join(versions) or "–"),
         ("Vector instructions", ", ".join(levels) or "–"),
         ("Evaluations of the equations", words.large(float(ran["nfev"].sum() or 0))),

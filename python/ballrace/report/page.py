@@ -21,7 +21,7 @@ p, ul { max-width: 46rem } .wide { overflow-x: auto }
 table { border-collapse: collapse; font-size: .92rem; margin: .5rem 0 }
 th, td { text-align: right; padding: .2rem .8rem; border-bottom: 1px solid #ddd; vertical-align: top }
 th { border-bottom: 2px solid #888 } th:first-child, td:first-child { text-align: left; padding-left: 0 }
-table.told td { text-align: left } figure { margin: .6rem 0 1.2rem }
+table.facts td { text-align: left } figure { margin: .6rem 0 1.2rem }
 figcaption { font-size: .9rem; color: #444; max-width: 46rem }
 .warning { border-left: 4px solid #c8452f; padding: .1rem 0 .1rem .8rem }
 pre { font-size: .8rem; overflow-x: auto }
@@ -71,10 +71,10 @@ class Page:
         lines = "".join(f"<li>{escape(item)}</li>" for item in items)
         self._parts.append(f"<ul>{lines}</ul>")
 
-    def told(self, entries: Iterable[tuple[str, str]]) -> None:
+    def facts(self, entries: Iterable[tuple[str, str]]) -> None:
         """Add a table of two columns, what and its value."""
         lines = "".join(f"<tr><td>{escape(a)}</td><td>{escape(b)}</td></tr>" for a, b in entries)
-        self._parts.append(f'<div class="wide"><table class="told">{lines}</table></div>')
+        self._parts.append(f'<div class="wide"><table class="facts">{lines}</table></div>')
 
     def table(self, header: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
         """Add a table of numbers, the first column names; of more than four a phone shows a list a row."""
@@ -99,10 +99,10 @@ class Page:
             full_html=False, include_plotlyjs=False, config=CONFIG, auto_play=False, default_width="100%",
             div_id=f"figure-{self._figures}",
         )  # fmt: skip
-        told = ""
+        figcaption = ""
         if caption is not None:
-            told = f"<figcaption>Figure {self._figures}: {escape(caption)}</figcaption>"
-        self._parts.append(f"<figure>{drawn}{told}</figure>")
+            figcaption = f"<figcaption>Figure {self._figures}: {escape(caption)}</figcaption>"
+        self._parts.append(f"<figure>{drawn}{figcaption}</figure>")
 
     def folded(self, title: str, text: str) -> None:
         """Add a text in its own lines, closed until it is asked for."""

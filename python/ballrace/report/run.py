@@ -31,7 +31,7 @@ def run_page(
         page.warning(warning)
     add_bearing(page, scene)
     page.section("Operating point")
-    page.told(words.operation(scene))
+    page.facts(words.operation(scene))
     _add_frequencies(page, out)
     add_loads(page, scene)
     for name in names:
@@ -101,7 +101,7 @@ def _add_defects(page: Page, out: Signals) -> None:
 def add_model(page: Page, out: Signals) -> None:
     """Add what the model holds, and what it left out."""
     page.section("What the model held, and what it left out")
-    page.told(words.model(out.scene))
+    page.facts(words.model(out.scene))
     left = out.provenance.to_dict().get("left_out", [])
     if left:
         page.text("Left out of the integration, and why:")
@@ -128,12 +128,12 @@ _STATISTICS = {
 def add_provenance(page: Page, out: Signals) -> None:
     """Add what made the signals, and the scene itself."""
     page.section("Provenance")
-    told = []
+    rows = []
     for record, names in ((out.provenance, _PROVENANCE), (out.stats, _STATISTICS)):
         known = record.to_dict()
         for key, what in names.items():
             if known.get(key) is not None:
                 value = known[key]
-                told.append((what, words.number(value) if isinstance(value, float) else str(value)))
-    page.told(told)
+                rows.append((what, words.number(value) if isinstance(value, float) else str(value)))
+    page.facts(rows)
     page.folded("The scene, as TOML", out.scene.to_toml())

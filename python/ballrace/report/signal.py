@@ -109,8 +109,8 @@ def add_features(page: Page, out: Signals, names: Sequence[str]) -> None:
     page.section("Features")
     found = out.features(columns=accelerations)
     for name in accelerations:
-        shape = [(what, _told(found, f"{name}.{key}")) for key, what in _FEATURES.items()]
-        page.told([("column", f"{name}, {unit(out.units[name])}"), *shape])
+        shape = [(what, _with_error(found, f"{name}.{key}")) for key, what in _FEATURES.items()]
+        page.facts([("column", f"{name}, {unit(out.units[name])}"), *shape])
         rows = []
         for row in range(len(out.scene.rows)):
             for key, what in _LINES.items():
@@ -118,7 +118,7 @@ def add_features(page: Page, out: Signals, names: Sequence[str]) -> None:
                 tails = ("", "_harmonics", "_envelope", "_envelope_harmonics")
                 if any(stem + tail in found for tail in tails):
                     rows.append(
-                        [f"row {row}, {what}", *(_told(found, stem + tail) for tail in tails)]
+                        [f"row {row}, {what}", *(_with_error(found, stem + tail) for tail in tails)]
                     )
         header = ["line at", "signal", "with harmonics", "squared envelope", "with harmonics"]
         if rows:
@@ -129,7 +129,7 @@ def add_features(page: Page, out: Signals, names: Sequence[str]) -> None:
         )
 
 
-def _told(found: Mapping[str, float | None], name: str) -> str:
+def _with_error(found: Mapping[str, float | None], name: str) -> str:
     """Return a feature, with its standard error where there is one."""
     error = found.get(f"{name}_se")
     return words.number(found.get(name)) + ("" if error is None else f" ± {words.number(error, 2)}")

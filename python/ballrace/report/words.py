@@ -61,7 +61,7 @@ def degrees(angle: float) -> str:
 
 def bearing(scene: Scene) -> list[tuple[str, str]]:
     """Return what there is to know of the rows of balls."""
-    told = []
+    rows = []
     for k, row in enumerate(scene.rows):
         of = f"Row {k}" if len(scene.rows) > 1 else "Balls"
         angle = f"contact angle {degrees(row.contact_angle)}, " if row.contact_angle else ""
@@ -70,8 +70,8 @@ def bearing(scene: Scene) -> list[tuple[str, str]]:
             f"{1e3 * row.pitch_diameter:.4g} mm, {angle}conformities {row.outer_conformity:.4g} outside and "
             f"{row.inner_conformity:.4g} inside, diametral clearance {1e6 * row.clearance:.3g} µm"
         )
-        told.append((of, text.replace("-", "−")))
-    return [*told, *(("Defect", _defect(name, defect)) for name, defect in scene.defects.items())]
+        rows.append((of, text.replace("-", "−")))
+    return [*rows, *(("Defect", _defect(name, defect)) for name, defect in scene.defects.items())]
 
 
 def _defect(name: str, defect: Defect) -> str:
@@ -93,16 +93,16 @@ def _defect(name: str, defect: Defect) -> str:
 
 def operation(scene: Scene) -> list[tuple[str, str]]:
     """Return loads and speed."""
-    told = []
+    rows = []
     for name, load in scene.loads.items():
         x, y, z = load.direction
         force = f"{load.force:.5g} N" if isinstance(load.force, int | float) else "changes in time"
         text = f"{force} on the {load.ring} ring along ({x:.3g}, {y:.3g}, {z:.3g})"
-        told.append((f"Load, {name}", text.replace("-", "−")))
-    told.append(("Speed", _speed(scene.drive)))
+        rows.append((f"Load, {name}", text.replace("-", "−")))
+    rows.append(("Speed", _speed(scene.drive)))
     if scene.outer_speed is not None:
-        told.append(("Speed of the outer ring", _turns(scene.outer_speed, "outer")))
-    return [*told, *_unbalances(scene)]
+        rows.append(("Speed of the outer ring", _turns(scene.outer_speed, "outer")))
+    return [*rows, *_unbalances(scene)]
 
 
 def _unbalances(scene: Scene) -> list[tuple[str, str]]:
@@ -156,7 +156,7 @@ def model(scene: Scene) -> list[tuple[str, str]]:
     contact = scene.contact
     friction = scene.friction
     cage = scene.cage
-    told = [
+    rows = [
         (
             "Contact",
             f"{_law(contact.law)}, {_slices(contact.slices)}; Hunt–Crossley damping {contact.damping:.3g} s/m",
@@ -167,7 +167,7 @@ def model(scene: Scene) -> list[tuple[str, str]]:
         ("Outer ring", _held(scene.outer_ring.support, "fixed")),
         ("Inner ring", _held(scene.inner_ring.support, "free")),
     ]
-    return [(what, text.replace("-", "−")) for what, text in told]
+    return [(what, text.replace("-", "−")) for what, text in rows]
 
 
 def _slices(slices: FixedSlices | FittedSlices | AccurateSlices) -> str:
