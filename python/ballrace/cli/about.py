@@ -67,8 +67,8 @@ def _frequencies(options: argparse.Namespace) -> None:
         speeds = {"speed_rpm": options.rpm}
         if options.outer_rpm is not None:
             speeds["outer_rpm"] = options.outer_rpm
-        told = {"bearing": row.designation, **speeds, "unit": unit, **values}
-        print(json.dumps(told, indent=2, ensure_ascii=False))
+        document = {"bearing": row.designation, **speeds, "unit": unit, **values}
+        print(json.dumps(document, indent=2, ensure_ascii=False))
         return
     ball, pitch = 1e3 * row.ball_diameter, 1e3 * row.pitch_diameter
     print(f"{row.designation}: {row.ball_count} balls of {ball:g} mm on {pitch:g} mm")
@@ -95,12 +95,12 @@ def _doctor(options: argparse.Namespace) -> None:
     lines = []
     for name, extra in _EXTRAS.items():
         there = importlib.util.find_spec(name) is not None
-        told = (
+        state = (
             importlib.metadata.version(name)
             if there
             else f'missing: pip install "ballrace[{extra}]"'
         )
-        lines.append([name, told])
+        lines.append([name, state])
     print_table(["library", "version"], lines)
     unfit = _lacks_rtcompat()
     if unfit:

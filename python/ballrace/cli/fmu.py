@@ -85,15 +85,15 @@ def _described(library: Path, scene: str) -> str:
             "no such library: build it in ballrace's repository, `cargo build --release -p ballrace-fmu`, "
             f"and give {_built()} there by --library",
         )
-    told: list[tuple[bool, str]] = []
+    answers: list[tuple[bool, str]] = []
     answer = ctypes.CFUNCTYPE(None, ctypes.c_bool, ctypes.c_char_p)
     try:
         describe = ctypes.CDLL(str(library.resolve())).ballrace_fmu_describe
     except (OSError, AttributeError) as error:
         raise FileError(str(library), f"no library of ballrace's FMUs ({error})") from error
     describe.restype = None
-    describe(scene.encode(), answer(lambda well, text: told.append((well, text.decode()))))
-    ((well, text),) = told
+    describe(scene.encode(), answer(lambda well, text: answers.append((well, text.decode()))))
+    ((well, text),) = answers
     if not well:
         raise FileError(str(library), f"of another version, it refuses the scene: {text}")
     return text

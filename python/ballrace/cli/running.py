@@ -78,9 +78,9 @@ def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:
         "ballrace scene 6309/C3 --radial-load 3000 --rpm 1470 > scene.toml", _scene,
     )  # fmt: skip
     scene.add_argument("name", metavar="NAME", help=f"a designation, such as 6205, or {_PRESETS}")
-    for name, (unit, told) in _OPERATION.items():
+    for name, (unit, meaning) in _OPERATION.items():
         scene.add_argument(
-            f"--{name}", type=float, metavar=unit, help=f"{told}; of {_OF_CATALOGUE}"
+            f"--{name}", type=float, metavar=unit, help=f"{meaning}; of {_OF_CATALOGUE}"
         )
     add_speeds(scene, "1800", _OF_CATALOGUE)
     scene.add_argument(

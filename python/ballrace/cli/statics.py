@@ -41,13 +41,13 @@ def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:
     static.add_argument(
         "--json", action="store_true", help="print the solution as JSON, in SI units"
     )
-    told = added(
+    parser = added(
         commands, "explain", "show what a scene is compiled to, what it costs and what would be cheaper",
         "ballrace explain scene.toml", _explain,
     )  # fmt: skip
-    add_scene(told)
-    told.add_argument("--json", action="store_true", help="print it as JSON")
-    told.add_argument(
+    add_scene(parser)
+    parser.add_argument("--json", action="store_true", help="print it as JSON")
+    parser.add_argument(
         "--drawing", type=Path, metavar="FILE",
         help="write the bearing cut through its axis, too, with parts, angle, loads and defects named: .html",
     )  # fmt: skip
@@ -113,33 +113,33 @@ def _print_balls(eq: Equilibrium) -> None:
 
 
 def _equilibrium_json(options: argparse.Namespace, scene: Scene, eq: Equilibrium) -> None:
-    told: dict[str, object] = {
+    document: dict[str, object] = {
         "outer": eq.outer.tolist(),
         "inner": eq.inner.tolist(),
         "balls": eq.to_polars().fill_nan(None).to_dicts(),
         "warnings": eq.warnings,
     }
     if options.stiffness:
-        told["stiffness"] = stiffness(scene).inner.tolist()
+        document["stiffness"] = stiffness(scene).inner.tolist()
     if options.life:
         life = rating_life(scene)
-        told["outer_equivalent"] = list(life.outer_equivalent)
-        told["inner_equivalent"] = list(life.inner_equivalent)
-        told["rating_life"] = {
+        document["outer_equivalent"] = list(life.outer_equivalent)
+        document["inner_equivalent"] = list(life.inner_equivalent)
+        document["rating_life"] = {
             "basic": life.basic,
             "reference": life.reference,
             "modified": life.modified,
         }
-    print(json.dumps(told, indent=2))
+    print(json.dumps(document, indent=2))
 
 
 def _explain(options: argparse.Namespace) -> None:
     if options.drawing is not None:
         check_page(options.drawing, "drawing")
     scene = read_scene(options.scene)
-    told = explain(scene)
+    found = explain(scene)
     if options.drawing is not None:
         from .. import plot
 
         plot.write(plot.section(scene), options.drawing)
-    print(json.dumps(told.to_dict(), indent=2) if options.json else printable(str(told)).rstrip())
+    print(json.dumps(found.to_dict(), indent=2) if options.json else printable(str(found)).rstrip())

@@ -66,5 +66,5 @@ def _joined(table: pl.DataFrame, names: tuple[str, ...]) -> pl.Series:
     known = pl.all_horizontal(pl.col(name).is_not_null() for name in names)
     true = [pl.when(pl.col(n)).then(pl.lit(n.removeprefix("fault_"))) for n in names]
     joined = pl.concat_str(true, separator="+", ignore_nulls=True)
-    told = pl.when(pl.any_horizontal(*names)).then(joined).otherwise(pl.lit("healthy"))
-    return table.select(pl.when(known).then(told).alias("class")).to_series()
+    label = pl.when(pl.any_horizontal(*names)).then(joined).otherwise(pl.lit("healthy"))
+    return table.select(pl.when(known).then(label).alias("class")).to_series()

@@ -67,12 +67,12 @@ def _operation(scene: Scene, middle: float) -> dict[str, Any]:
     forces = [np.multiply(load["direction"], load["force"]) for load in origin.load(middle) or []]
     load = float(np.linalg.norm(np.sum(forces, axis=0))) if forces else 0.0
     speed = origin.speed(middle)
-    told = {"load": load, "load_unit": "N", "operating_condition": f"{load:.0f} N"}
+    entries = {"load": load, "load_unit": "N", "operating_condition": f"{load:.0f} N"}
     if speed is None:  # a torque drives, and only the run knows
-        return told
+        return entries
     rpm = abs(speed) * 30.0 / math.pi
-    told["operating_condition"] = f"{rpm:.0f} rpm, {load:.0f} N"
-    return told | {"speed_rpm": rpm, "speed_profile": _profile(scene)}
+    entries["operating_condition"] = f"{rpm:.0f} rpm, {load:.0f} N"
+    return entries | {"speed_rpm": rpm, "speed_profile": _profile(scene)}
 
 
 def _profile(scene: Scene) -> str:

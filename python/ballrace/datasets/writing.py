@@ -63,9 +63,9 @@ def write(
         if not rows:
             raise SceneError("path", str(path), "a campaign that kept labelled signals")
         _write_table(made, rows)
-        told = _card(path.name, rows, digest) | dict(card)
-        (made / "manifest.json").write_text(json.dumps(told, indent=1), encoding="utf-8")
-        (made / "README.md").write_text(_page(told), encoding="utf-8")
+        manifest = _card(path.name, rows, digest) | dict(card)
+        (made / "manifest.json").write_text(json.dumps(manifest, indent=1), encoding="utf-8")
+        (made / "README.md").write_text(_page(manifest), encoding="utf-8")
         made.rename(path)
 
 
@@ -88,8 +88,8 @@ def _write_signals(
             block, files = [], files + 1
     if block:
         _write_block(folder / _file(files), block)
-    told = "".join(f"{name}:{digests[name]}\n" for name in sorted(digests))
-    return rows, hashlib.sha256(told.encode()).hexdigest()
+    listing = "".join(f"{name}:{digests[name]}\n" for name in sorted(digests))
+    return rows, hashlib.sha256(listing.encode()).hexdigest()
 
 
 def _file(number: int) -> str:
@@ -130,7 +130,7 @@ def _card(dataset: str, rows: list[dict[str, Any]], digest: str) -> dict[str, An
         "content_hash": digest,
         "n_recordings": len({row["recording_id"] for row in rows}),
         "n_signals": len(rows),
-        "columns": {name: told for name, told in COLUMNS.items() if name in there},
+        "columns": {name: meaning for name, meaning in COLUMNS.items() if name in there},
         "raw_files": [],
     }
 

@@ -42,10 +42,10 @@ class Examples:
     class_weight: dict[int, float]
 
     def __repr__(self) -> str:
-        told = ", ".join(
+        counts = ", ".join(
             f"{name} {np.count_nonzero(self.y == k)}" for k, name in enumerate(self.classes)
         )
-        return f"<Examples: {self.x.shape[0]} windows of {self.x.shape[1]} samples: {told}>"
+        return f"<Examples: {self.x.shape[0]} windows of {self.x.shape[1]} samples: {counts}>"
 
 
 def examples(

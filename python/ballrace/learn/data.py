@@ -80,8 +80,8 @@ class Simulated:
 
     def __repr__(self) -> str:
         counts = self.windows["label"].value_counts(sort=True).sort("label").iter_rows()
-        told = ", ".join(f"{name} {count}" for name, count in counts)
-        return f"<Simulated: {self.recipe.made.designation}, {self.window:g} s at {self.fs:g} Hz: {told}>"
+        listed = ", ".join(f"{name} {count}" for name, count in counts)
+        return f"<Simulated: {self.recipe.made.designation}, {self.window:g} s at {self.fs:g} Hz: {listed}>"
 
     @property
     def turns(self) -> float:
@@ -96,7 +96,7 @@ class Simulated:
         ``bearing_id``, ``shape``, ``size_mm`` and ``shaft`` [Hz]. :func:`ballrace.learn.examples` makes arrays of
         it, :func:`ballrace.bearing_split` splits it by bearing.
         """
-        heard = self.campaign.windows(
+        records = self.campaign.windows(
             self.chains,
             round(self.window * self.fs),
             seed=self.seed,
@@ -105,10 +105,10 @@ class Simulated:
             labels=(),
         )
         shaft = pl.col("drive.speed") / (2.0 * math.pi)
-        told = self.cases.select(
+        labelled = self.cases.select(
             "case_id", "label", "bearing_id", "shape", "size_mm", shaft.alias("shaft")
         )
-        return heard.join(told, on="case_id", how="inner", maintain_order="left")
+        return records.join(labelled, on="case_id", how="inner", maintain_order="left")
 
     def channels(self) -> Iterator[Channel]:
         """Yield the records, in the order of :attr:`windows`."""
@@ -229,7 +229,7 @@ def dataset(
         "threads": threads,
     })  # fmt: skip
     if progress is True:
-        making.tell(per_case)
+        making.write_estimate(per_case)
     done, cases = making.run(progress)
     return Simulated(
         recipe=recipe,
@@ -268,12 +268,12 @@ class _Making:
                 break
             wanted = {kind: n + math.ceil(_SPARE * lacking[kind]) for kind, n in wanted.items()}
         else:
-            told = ", ".join(f"{_part(kind)} {number}" for kind, number in met.items())
-            text = f"{self.folder}: fewer than {self.count} runs of a class count: {told}"
+            counts = ", ".join(f"{_part(kind)} {number}" for kind, number in met.items())
+            text = f"{self.folder}: fewer than {self.count} runs of a class count: {counts}"
             warnings.warn(text, CampaignWarning, stacklevel=3)
         return done, pl.concat([cases.filter(part=_part(kind)).head(self.count) for kind in wanted])
 
-    def tell(self, per_case: int) -> None:
+    def write_estimate(self, per_case: int) -> None:
         """Write how long it takes, estimated from one run of each class."""
         rows = self._rows(dict.fromkeys(self.kinds, self.count))
         whole = self._campaign(rows, dry_run=True)

@@ -149,15 +149,13 @@ def compared(
         "outside": np.mean((measured < ends[0]) | (measured > ends[1]), axis=0),
     }).sort("auc", descending=True)  # fmt: skip
     return DomainReport(
-        auc=_told_apart(X, truth, groups),
-        auc_without_path=_told_apart(X[:, without], truth, groups),
+        auc=_auc(X, truth, groups),
+        auc_without_path=_auc(X[:, without], truth, groups),
         features=table,
     )
 
 
-def _told_apart(
-    X: NDArray[np.float64], truth: NDArray[np.int64], groups: NDArray[np.int64]
-) -> float:
+def _auc(X: NDArray[np.float64], truth: NDArray[np.int64], groups: NDArray[np.int64]) -> float:
     from sklearn.ensemble import RandomForestClassifier
     from sklearn.metrics import roc_auc_score
     from sklearn.model_selection import StratifiedGroupKFold, cross_val_predict

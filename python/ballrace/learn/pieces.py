@@ -50,8 +50,8 @@ def pieces_of(
     channel = _slower(replace(channel, shaft=shaft), rate)
     size = round(turns / shaft * channel.fs)
     if channel.n_samples < FEWEST_TURNS / shaft * channel.fs:
-        told = f"{channel.n_samples / channel.fs * shaft:.2g} turns of the shaft"
-        raise SceneError("record", told, f"{FEWEST_TURNS:g} and more")
+        given = f"{channel.n_samples / channel.fs * shaft:.2g} turns of the shaft"
+        raise SceneError("record", given, f"{FEWEST_TURNS:g} and more")
     size = min(size, channel.n_samples)
     starts = range(0, channel.n_samples - size + 1, size)
     return [replace(channel, x=channel.x[k : k + size], start=k / channel.fs) for k in starts]

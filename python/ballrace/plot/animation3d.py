@@ -87,8 +87,8 @@ def animation3d(
         "xaxis": hidden, "yaxis": hidden, "zaxis": hidden, "aspectmode": "data", "uirevision": "kept",
         "camera": {"eye": {"x": 0.9, "y": 0.7, "z": 1.5}, "up": {"x": 0.0, "y": 1.0, "z": 0.0}},
     }  # fmt: skip
-    told = f"contacts drawn {enlarged:g} times as large"
-    note = {"text": told, "x": 0.0, "y": 0.0, "xref": "paper", "yref": "paper", "showarrow": False}
+    text = f"contacts drawn {enlarged:g} times as large"
+    note = {"text": text, "x": 0.0, "y": 0.0, "xref": "paper", "yref": "paper", "showarrow": False}
     return finished(
         fig, layout, height=760, showlegend=False, scene=scene, annotations=[note], **player(fig, redraw=True)
     )  # fmt: skip

@@ -72,8 +72,8 @@ def campaign_map(
     z[tuple(places)] = mean[value].to_numpy()
     shown = np.log10(np.where(z > 0.0, z, np.nan)) if logarithmic else z
     fig = fig if fig is not None else Figure()
-    told = feature(value)
-    named = f"log₁₀ of {told}" if logarithmic else told
+    quantity = feature(value)
+    named = f"log₁₀ of {quantity}" if logarithmic else quantity
     few = z.size <= 64
     labels = [["–" if np.isnan(v) else f"{v:.3g}" for v in line] for line in z]
     fig.add_trace(

@@ -194,11 +194,15 @@ def _loads(fig: go.Figure, scene: Scene, shapes: Outlines) -> None:
             continue
         sign = -1.0 if isinstance(force, float) and force < 0.0 else 1.0
         dz, dy = sign * reach * z / size, sign * reach * y / size
-        told = f"{abs(force):.0f} N" if isinstance(force, float) else "varies"
+        amount = f"{abs(force):.0f} N" if isinstance(force, float) else "varies"
         start = (middle + 0.08 * reach, 0.0) if dy else (middle - dz / 2, 0.28 * reach)
         _arrow(fig, start, (start[0] + dz, start[1] + dy), COLOURS[2], width=3)
         at = (start[0] + 0.1 * reach, start[1] + 0.7 * dy) if dy else (middle, 0.7 * reach)
-        text = f"{name} load<br>on the {load.ring} ring<br>{told}" if dy else f"{name} load, {told}"
+        text = (
+            f"{name} load<br>on the {load.ring} ring<br>{amount}"
+            if dy
+            else f"{name} load, {amount}"
+        )
         _text(fig, *at, text, colour=COLOURS[2], xanchor="left" if dy else "center")
 
 

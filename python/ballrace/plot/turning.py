@@ -157,8 +157,8 @@ class Turning:
         radial = np.stack([np.cos(phi), np.sin(phi), 0.0 * phi], -1)
         along = np.stack([-np.sin(phi), np.cos(phi), 0.0 * phi], -1)
         axial = np.array([0.0, 0.0, 1.0])
-        lean = self._of_row.side * outward * math.sin(self._angle)
-        normal = outward * math.cos(self._angle) * radial + lean * axial
+        axial_share = self._of_row.side * outward * math.sin(self._angle)
+        normal = outward * math.cos(self._angle) * radial + axial_share * axial
         across = np.cross(normal, along)
         middle = np.stack([x, y, z], -1) + 1.01 * self._radius * normal
         _, u, v = self._patch.points.T
