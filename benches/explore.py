@@ -25,7 +25,7 @@ from ballrace.explore.settings import Settings
 CHANGES = 50
 WATCH = """() => {
   window.took = []; window.pressed = null;
-  const load = () => [...document.querySelectorAll('.told td')].find(e => e.textContent === 'largest load')
+  const load = () => [...document.querySelectorAll('.facts td')].find(e => e.textContent === 'largest load')
     ?.nextSibling.textContent;
   let last = load();
   addEventListener('keydown', () => { window.pressed = performance.now() }, true);
@@ -46,12 +46,12 @@ def main() -> None:
     print(f"load of the machine: {os.getloadavg()[0]:.1f}")
     scenes = [br.bearing(name) for name in ("6205", "6316", "7208B", "3206")]
     for scene in [*scenes, br.presets.wheel_bearing(), br.presets.motor()]:
-        print(f"{scene.name:20}", told(*computed(scene)))
+        print(f"{scene.name:20}", times_in_words(*computed(scene)))
     if options.page:
-        print(f"{'page, 6205':20}", told(shown()))
+        print(f"{'page, 6205':20}", times_in_words(shown()))
 
 
-def told(took: list[float], cpu: float | None = None) -> str:
+def times_in_words(took: list[float], cpu: float | None = None) -> str:
     """Return median and longest [ms], and the mean time of the processor."""
     text = f"median {1e3 * statistics.median(took):.0f} ms, longest {1e3 * max(took):.0f} ms"
     return text if cpu is None else f"{text}, processor {1e3 * cpu:.0f} ms"
@@ -81,7 +81,7 @@ def shown() -> list[float]:
         browser = playwright.chromium.launch(executable_path=program, args=["--no-sandbox"])
         page = browser.new_page(viewport={"width": 1400, "height": 900})
         page.goto(at.url)
-        page.wait_for_selector(".told table", timeout=60_000)
+        page.wait_for_selector(".facts table", timeout=60_000)
         page.locator("marimo-dropdown", has_text="damage").first.locator("select").select_option(
             label="spall"
         )

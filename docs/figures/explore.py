@@ -28,7 +28,7 @@ def draw() -> None:
         browser = playwright.chromium.launch(executable_path=program, args=["--no-sandbox"])
         page = browser.new_page(viewport={"width": 1400, "height": 900})
         page.goto(at.url)
-        page.wait_for_selector(".told table", timeout=60_000)
+        page.wait_for_selector(".facts table", timeout=60_000)
         for label, option in (("oil", "vg68"), ("damage", "spall")):
             choice = page.locator("marimo-dropdown", has_text=label).first
             choice.locator("select").select_option(label=option)

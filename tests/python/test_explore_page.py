@@ -45,35 +45,35 @@ def shown(browser: Browser, at: Page, width: int = 1400) -> Iterator[tuple[Any, 
         page.set_default_timeout(PATIENCE)
         page.goto(at.url)
         page.wait_for_selector(".pictures svg")
-        page.wait_for_selector(".told table")
+        page.wait_for_selector(".facts table")
         yield page, seen
         hosts = {url.split("/")[2] for url in seen.requests if "://" in url}
         assert {host.split(":")[0] for host in hosts} == {"127.0.0.1"}
-        assert [said for said in seen.console if said.startswith("error")] == []
+        assert [line for line in seen.console if line.startswith("error")] == []
 
 
 def cell(page: Any, name: str) -> str:
     """What stands beside a name in the page's table."""
-    rows: str = page.inner_text(".told")
+    rows: str = page.inner_text(".facts")
     found = (line.partition(name)[2] for line in rows.splitlines() if name in line)
     return next(found, "").strip()
 
 
 def everything(page: Any) -> str:
     html: str = page.eval_on_selector_all(
-        ".pictures, .told", "all => all.map(e => e.innerHTML).join('')"
+        ".pictures, .facts", "all => all.map(e => e.innerHTML).join('')"
     )
     return html
 
 
 def changed(page: Any, before: str) -> None:
     page.wait_for_function(
-        "before => [...document.querySelectorAll('.pictures, .told')].map(e => e.innerHTML).join('') !== before",
+        "before => [...document.querySelectorAll('.pictures, .facts')].map(e => e.innerHTML).join('') !== before",
         arg=before,
     )
 
 
-def retold(page: Any, name: str, was: str) -> None:
+def moved(page: Any, name: str, was: str) -> None:
     """Wait until the table has something else beside a name; it comes after the drawings."""
     until = time.monotonic() + 1e-3 * PATIENCE
     while not cell(page, name) or f"{name}\t{cell(page, name)}" in was:
@@ -121,11 +121,11 @@ STATIC = {
 
 def test_numbers_move_what_follows_from_them(browser: Browser, explored: Page) -> None:
     with shown(browser, explored) as (page, _):
-        for label, (value, told) in STATIC.items():
-            was = page.inner_text(".told")
+        for label, (value, row) in STATIC.items():
+            was = page.inner_text(".facts")
             typed(page, label, value)
-            if told:
-                retold(page, told, was)
+            if row:
+                moved(page, row, was)
         scene = br.Scene.from_toml(saved(page, "Scene").decode())
         assert scene == br.Scene.from_toml(scene.to_toml())
         assert scene.loads["radial"].force == 1500.0
@@ -139,14 +139,14 @@ def test_numbers_move_what_follows_from_them(browser: Browser, explored: Page) -
 
 def test_oil_damage_and_noise_move_what_they_should(browser: Browser, explored: Page) -> None:
     with shown(browser, explored) as (page, _):
-        for label, option, told in (("oil", "vg68", "oil film, "), ("damage", "spall", "")):
+        for label, option, row in (("oil", "vg68", "oil film, "), ("damage", "spall", "")):
             before = everything(page)
             picked(page, label, option)
             changed(page, before)
-            page.wait_for_selector(f".told:has-text('{told}')")
-        was = page.inner_text(".told")
+            page.wait_for_selector(f".facts:has-text('{row}')")
+        was = page.inner_text(".facts")
         typed(page, "oil temperature", "100")
-        retold(page, "oil film, inner race", was)
+        moved(page, "oil film, inner race", was)
         assert page.locator("rect.damage").count() == 1
         for label, value in (("damage: size", "2.5"), ("damage: place", "45")):
             before = everything(page)
@@ -160,11 +160,11 @@ def test_oil_damage_and_noise_move_what_they_should(browser: Browser, explored: 
 
 def test_bearings_by_name_and_by_size(browser: Browser, explored: Page) -> None:
     with shown(browser, explored) as (page, _):
-        for name, told in (("6316/C3", "8 balls"), ("NU205", "roller"), ("7208 BECBP", "14 balls")):
+        for name, text in (("6316/C3", "8 balls"), ("NU205", "roller"), ("7208 BECBP", "14 balls")):
             field = page.locator("marimo-text input")
             field.fill(name)
             field.press("Enter")
-            page.wait_for_selector(f"text=/{told}/")
+            page.wait_for_selector(f"text=/{text}/")
         picked(page, "bearing", "by its size")
         page.wait_for_selector("text=/An estimate/")
 
@@ -185,7 +185,7 @@ def test_a_load_is_turned_by_the_keyboard_alone(browser: Browser, explored: Page
         for _ in range(20):
             page.keyboard.press("ArrowRight")
         page.wait_for_function(
-            "was => ![...document.querySelectorAll('.told tr')].some(r => r.innerText.includes(was))",
+            "was => ![...document.querySelectorAll('.facts tr')].some(r => r.innerText.includes(was))",
             arg=was,
         )
         before, now = (
@@ -279,7 +279,7 @@ def test_it_begins_with_a_scene_or_a_record(browser: Browser, tmp_path: Path) ->
         picked(page, "oil", "vg68")
         page.wait_for_selector("text=/6205: damaged, outer race/")
         page.wait_for_selector("rect.damage")
-        page.wait_for_selector(".told:has-text('oil film, ')")
+        page.wait_for_selector(".facts:has-text('oil film, ')")
 
 
 @pytest.mark.parametrize("width", [390, 1400])

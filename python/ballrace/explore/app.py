@@ -355,7 +355,7 @@ def verdict(
             return [refused(error)]
         fig = beside.overlaid(simulated, measured, rates, found)
         return [
-            mo.Html(f'<div class="told verdict">{found._repr_html_()}</div>'),
+            mo.Html(f'<div class="facts verdict">{found._repr_html_()}</div>'),
             mo.ui.plotly(fig, config=CONFIG),
         ]
 

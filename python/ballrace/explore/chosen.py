@@ -89,11 +89,11 @@ def summary(scene: Scene, made: Bearing | None = None) -> str:
         f"{row.ball_count} balls of {1e3 * row.ball_diameter:.2f} mm on {1e3 * row.pitch_diameter:.2f} mm"
         for row in scene.rows
     )
-    told = f"{scene.name or 'bearing'}: {'; '.join(dict.fromkeys(rows))}"
+    text = f"{scene.name or 'bearing'}: {'; '.join(dict.fromkeys(rows))}"
     if made is None or made.uncertainty is None:
-        return told
+        return text
     off = made.uncertainty
-    return f"{told}. An estimate: nine of ten are within {off.ball_count} balls and {off.orders.bpfo:.2f} of BPFO."
+    return f"{text}. An estimate: nine of ten are within {off.ball_count} balls and {off.orders.bpfo:.2f} of BPFO."
 
 
 def _housing(name: Housing) -> Literal["pedestal"] | None:

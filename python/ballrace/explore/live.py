@@ -73,7 +73,7 @@ def solved(scene: Scene) -> Live:
         The bearing cannot carry its load.
     """
     healthy = scene.replace({"defects": {}})
-    with warnings.catch_warnings(record=True) as told:
+    with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", SceneWarning)
         tangent = stiffness(healthy)
         around = load_distribution(healthy)
@@ -81,7 +81,7 @@ def solved(scene: Scene) -> Live:
         of_row = fault_frequencies if steady else rates_at_a_turn
         rates = tuple(of_row(healthy, row=k) for k in range(len(scene.rows)))
         life, why = _life(healthy, around)
-        warned = (str(each.message) for each in told)
+        warned = (str(each.message) for each in caught)
         doubts = dict.fromkeys([*_apart(healthy, rates), *scene.doubts(), *warned])
     return Live(
         scene=scene,

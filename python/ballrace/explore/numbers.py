@@ -24,7 +24,7 @@ def page(live: Live) -> str:
     speed = "" if live.steady else " The speed changes: orders alone."
     doubts = points(live.doubts)
     lines = paragraph("Fault frequencies", f"at the contact angles under load.{speed}")
-    return f'<div class="told">{doubts}{table(("at rest", ""), what)}{lines}{rates}</div>'
+    return f'<div class="facts">{doubts}{table(("at rest", ""), what)}{lines}{rates}</div>'
 
 
 _FAULTS = ("shaft", "FTF", "BPFO", "BPFI", "2·BSF")
@@ -38,7 +38,7 @@ def numbers(live: Live) -> dict[str, str]:
     angles = np.degrees(np.abs(eq.outer_angle[eq.outer_load > 0.0]))
     soft, stiff = 1e-6 * tangent.radial
     moved = ", ".join(f"{1e6 * each:z.1f}" for each in eq.inner - eq.outer)
-    told = {
+    found = {
         "balls under load": f"{loaded} of {eq.ball.size}",
         "largest load": f"{max(eq.outer_load.max(), eq.inner_load.max()):.0f} N",
         "contact angles": f"{angles.min():.1f} to {angles.max():.1f}°" if angles.size else "–",
@@ -50,7 +50,7 @@ def numbers(live: Live) -> dict[str, str]:
         **_tilt(live),
         **_films(live),
     }
-    return told | _life(live.life, live.no_life)
+    return found | _life(live.life, live.no_life)
 
 
 def _tilt(live: Live) -> dict[str, str]:
@@ -66,8 +66,8 @@ def _films(live: Live) -> dict[str, str]:
     if not films:
         return {"oil film": "none: dry"}
     thinnest = min(films, key=lambda film: film.lambda_ratio)
-    told = f"{1e6 * thinnest.film:.2f} µm, {thinnest.lambda_ratio:.1f} times the roughness (Λ)"
-    return {f"oil film, {thinnest.race} race": told}
+    text = f"{1e6 * thinnest.film:.2f} µm, {thinnest.lambda_ratio:.1f} times the roughness (Λ)"
+    return {f"oil film, {thinnest.race} race": text}
 
 
 def _life(life: RatingLife | None, why: str) -> dict[str, str]:

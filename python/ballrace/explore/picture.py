@@ -139,14 +139,14 @@ def contacts(live: Live, number: int) -> str:
     parts = []
     for place, (race, (across, along, load, pressure)) in enumerate(axes.items()):
         x = (2 * place - 1) * 0.85 * reach
-        told = f"{load:.0f} N, {pressure:.0f} MPa"
+        text = f"{load:.0f} N, {pressure:.0f} MPa"
         sizes = f"{2.0 * across:.2f} × {2.0 * along:.2f} mm"
         parts += [
             f'<ellipse class="{race}" cx="{x:.5g}" cy="0" rx="{along:.5g}" ry="{across:.5g}" fill="{_LOAD}" '
-            f'fill-opacity="0.5"><title>{told}</title></ellipse>',
+            f'fill-opacity="0.5"><title>{text}</title></ellipse>',
             *(_spot(d, x) for d in live.scene.defects.values() if _lies_on(d, number, race)),
             _text(x, 1.45 * reach, f"{race} race", reach, _INK),
-            _text(x, -1.3 * reach, told, reach, _INK),
+            _text(x, -1.3 * reach, text, reach, _INK),
             _text(x, -1.55 * reach, sizes, reach, _INK),
         ]
     title = "Largest contacts" + (f" of row {number}" if len(live.scene.rows) > 1 else "")

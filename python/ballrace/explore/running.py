@@ -66,7 +66,9 @@ class Running:
             with warnings.catch_warnings():
                 # They stand in the result.
                 warnings.simplefilter("ignore")
-                self.out = simulate(self.scene, duration=duration, fs=FS, progress=self._told)
+                self.out = simulate(
+                    self.scene, duration=duration, fs=FS, progress=self._on_progress
+                )
             self.state = "done"
         except _StoppedError:
             self.state = "stopped"
@@ -75,7 +77,7 @@ class Running:
         finally:
             self._ended.set()
 
-    def _told(self, share: float) -> None:
+    def _on_progress(self, share: float) -> None:
         self.share = share
         if self._stop.is_set():
             raise _StoppedError
