@@ -60,9 +60,9 @@ def waveform(name: str, unit: str, x: NDArray[np.float64]) -> str:
     y = _HEIGHT * (1.0 - (np.concatenate([high, low[::-1]]) - least) / span)
     t = np.arange(len(pieces))
     outline = " ".join(f"{a},{b:.1f}" for a, b in zip([*t, *t[::-1]], y, strict=True))
-    told = f"RMS {np.sqrt(np.mean(x**2)):.3g}, {low.min():.3g} to {high.max():.3g} {unit}"
+    summary = f"RMS {np.sqrt(np.mean(x**2)):.3g}, {low.min():.3g} to {high.max():.3g} {unit}"
     drawn = (
         f'<svg width="{_PIECES}" height="{_HEIGHT}" viewBox="0 0 {len(pieces)} {_HEIGHT}" '
         f'preserveAspectRatio="none"><polygon points="{outline}" fill="#1f77b4" stroke="#1f77b4"/></svg>'
     )
-    return f"<tr><td>{_shown(name)}</td><td>{drawn}</td><td>{_shown(told)}</td></tr>"
+    return f"<tr><td>{_shown(name)}</td><td>{drawn}</td><td>{_shown(summary)}</td></tr>"

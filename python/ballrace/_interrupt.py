@@ -33,7 +33,7 @@ def answers_ctrl_c(function: Callable[P, T]) -> Callable[P, T]:
     @functools.wraps(function)
     def called(*args: P.args, **kwargs: P.kwargs) -> T:
         x = args[0] if args else kwargs.get("x")
-        if getattr(x, "size", 0) < _LONG or not _hears_signals():
+        if getattr(x, "size", 0) < _LONG or not _gets_signals():
             return function(*args, **kwargs)
         return _apart(lambda: function(*args, **kwargs))
 
@@ -42,7 +42,7 @@ def answers_ctrl_c(function: Callable[P, T]) -> Callable[P, T]:
 
 def interrupted_once(work: Callable[[], T]) -> T:
     """Let polars work on a thread of its own, and wait for its end; after Ctrl-C it soon ends what it does."""
-    if not _hears_signals():
+    if not _gets_signals():
         return work()
     with ThreadPoolExecutor(1) as pool:
         try:
@@ -53,7 +53,7 @@ def interrupted_once(work: Callable[[], T]) -> T:
         return started.result()
 
 
-def _hears_signals() -> bool:
+def _gets_signals() -> bool:
     return threading.current_thread() is threading.main_thread()
 
 

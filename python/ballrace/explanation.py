@@ -129,16 +129,16 @@ def explain(scene: Scene, *, clearance: OperatingClearance | None = None) -> Exp
     if clearance is not None:
         _check_clearance(scene, clearance)
     entries, text = _core.explain(document)
-    told = json.loads(entries)
+    fields = json.loads(entries)
     if clearance is not None:
-        told["clearance"] = {**asdict(clearance), "clearance": clearance.clearance}
+        fields["clearance"] = {**asdict(clearance), "clearance": clearance.clearance}
         text = f"{text.rstrip()}\n{clearance}\n"
-    return Explanation(told, text)
+    return Explanation(fields, text)
 
 
-def _check_clearance(scene: Scene, told: OperatingClearance) -> None:
+def _check_clearance(scene: Scene, clearance: OperatingClearance) -> None:
     for k, row in enumerate(scene.rows):
-        if not math.isclose(row.clearance, told.clearance, rel_tol=1e-9, abs_tol=1e-12):
-            given = f"{told.clearance:g} of {told.designation}"
+        if not math.isclose(row.clearance, clearance.clearance, rel_tol=1e-9, abs_tol=1e-12):
+            given = f"{clearance.clearance:g} of {clearance.designation}"
             allowed = f"the clearance in operation of row {k}, {row.clearance:g}; clearance.apply(scene) sets it"
             raise SceneError("clearance", given, allowed)

@@ -116,10 +116,10 @@ def document(given: Mapping[str, Any]) -> dict[str, Any]:
     for name in given:
         if name not in ARGUMENTS:
             raise SceneError(name, "an argument of a run", f"one of {', '.join(ARGUMENTS)}")
-    return {name: _said(name, value) for name, value in given.items()}
+    return {name: _as_json(name, value) for name, value in given.items()}
 
 
-def _said(name: str, value: Any) -> Any:
+def _as_json(name: str, value: Any) -> Any:
     """Return the value of an argument as JSON has it."""
     if isinstance(value, Mapping):
         # None of them is a mapping: messages show it as it was written, not as a part of a scene keeps it.

@@ -94,7 +94,7 @@ def passed(forces: Mapping[str, RingForce] | None) -> list[_Force]:
     return [_passed(str(name), force) for name, force in forces.items()]
 
 
-def told(forces: Iterable[str] | None) -> list[tuple[Literal["asked"], str]]:
+def warnings_of(forces: Iterable[str] | None) -> list[tuple[Literal["asked"], str]]:
     """Return the warning of a record about forces that its scene does not have."""
     names = ", ".join(forces or ())
     if not names:

@@ -251,7 +251,7 @@ def stiffness_table(
             if speeds is not None:
                 changes["drive"] = SpeedDrive(float(speeds[k]))
             rpm = None if speeds is None else float(speeds[k]) * 30.0 / math.pi
-            found.append(_coefficients(scene, changes, positions, _told(cases, case, rpm)))
+            found.append(_coefficients(scene, changes, positions, _note(cases, case, rpm)))
     texts = dict.fromkeys(text for one in found for text in one["equilibrium"]["warnings"])
     return StiffnessTable(
         stiffness=np.stack([one["stiffness"] for one in found]).reshape(*shape, 5, 5),
@@ -264,17 +264,17 @@ def stiffness_table(
 
 
 def _coefficients(
-    scene: Scene, changes: Mapping[str, Any], positions: int, told: str
+    scene: Scene, changes: Mapping[str, Any], positions: int, note: str
 ) -> Mapping[str, Any]:
     """Return the matrices of one load and speed; an error has a note of which."""
     try:
         return _core.dynamic_coefficients(scene.replace(changes)._document(), positions)
     except BallraceError as error:
-        error.add_note(told)
+        error.add_note(note)
         raise
 
 
-def _told(cases: Mapping[str, NDArray[np.float64]], case: int, rpm: float | None) -> str:
+def _note(cases: Mapping[str, NDArray[np.float64]], case: int, rpm: float | None) -> str:
     """Say in words which load and speed it is."""
     loads = ", ".join(f"{name} = {of[case]:g} N" for name, of in cases.items())
     speed = "" if rpm is None else f", at {rpm:g} rev/min"

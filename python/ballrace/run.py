@@ -15,7 +15,7 @@ from ._progress import Bar
 from ._text import printable
 from .errors import AccuracyWarning, SceneError, SceneWarning
 from .options import Run, Start
-from .ring_force import passed, told
+from .ring_force import passed, warnings_of
 from .scene.scene import checked_scene
 from .signals import Signals
 
@@ -199,7 +199,7 @@ def simulate(
             scene.name,
             lambda share: _core.simulate(document, asked, state, share, sink, code),
         )
-        raw["warnings"] += told(forces)
+        raw["warnings"] += warnings_of(forces)
         return raw
 
     raw, written = (run(None), None) if target is None else _written(target, run)

@@ -12,7 +12,7 @@ from ._document import encode
 from ._numbers import finite, positive, real, real_row
 from ._snapshot import Snapshot, joined
 from .errors import SceneError
-from .ring_force import passed, told
+from .ring_force import passed, warnings_of
 from .run import request, shown, warn
 from .scene.scene import Scene, checked_path, checked_scene
 from .signals import Signals
@@ -363,7 +363,7 @@ class Simulation:
         rest = {"t": raw["t"], **{name: values for name, _, values in raw["columns"]}}
         record = joined([*self._pieces, rest])
         self._pieces = []
-        raw["warnings"] += told(self._forces)
+        raw["warnings"] += warnings_of(self._forces)
         raw["t"] = record["t"]
         raw["columns"] = [(name, unit, record[name]) for name, unit, _ in raw["columns"]]
         return Signals._from_core(raw)

@@ -166,7 +166,7 @@ class Equilibrium:
     def _repr_html_(self) -> str:
         """Return displacements, warnings and the balls, as notebooks show it."""
         moved = ", ".join(f"{1e6 * each:.2f}" for each in self.inner - self.outer)
-        told = paragraph(
+        summary = paragraph(
             repr(self).strip("<>"), f"Inner against outer ring: {moved} µm along x, y, z."
         )
         names = ("row", "ball", "at / °", "load / N", "contact angle / °", "largest pressure / GPa")
@@ -176,7 +176,7 @@ class Equilibrium:
              f"{1e-9 * max(self.outer_pressure[k], self.inner_pressure[k]):.3f}")
             for k in range(self.ball.size)
         ]  # fmt: skip
-        return told + points(self.warnings) + table(names, rows)
+        return summary + points(self.warnings) + table(names, rows)
 
     def to_polars(self) -> pl.DataFrame:
         """Return a table with a line per ball and the columns ``row``, ``ball``, ``angle``, …."""
@@ -235,11 +235,11 @@ def equilibrium(
     return _equilibrium(_core.equilibrium(document, race_control, passed(forces)))
 
 
-def _equilibrium(told: Mapping[str, Any]) -> Equilibrium:
+def _equilibrium(result: Mapping[str, Any]) -> Equilibrium:
     """Return the equilibrium of the core's result; warn the caller of a public function."""
-    films = tuple(RaceFilm(**film) for film in json.loads(told["films"]))
-    texts = warned(told["warnings"], stacklevel=4)
-    return Equilibrium(**{**told, "films": films, "warnings": texts})
+    films = tuple(RaceFilm(**film) for film in json.loads(result["films"]))
+    texts = warned(result["warnings"], stacklevel=4)
+    return Equilibrium(**{**result, "films": films, "warnings": texts})
 
 
 def warned(texts: Iterable[str], *, stacklevel: int) -> tuple[str, ...]:
