@@ -106,7 +106,7 @@ def memory(count: int) -> None:
     forces = np.linspace(100.0, 2000.0, count)
     seen: dict[int, float] = {}
 
-    def tell(progress: Any) -> None:
+    def on_progress(progress: Any) -> None:
         tenth = 10 * progress.done // progress.total
         peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
         seen.setdefault(tenth, peak)
@@ -115,7 +115,7 @@ def memory(count: int) -> None:
     with tempfile.TemporaryDirectory() as folder:
         began = time.perf_counter()
         table = br.grid({"loads.radial.force": list(forces)})
-        done = br.campaign(table, folder, scene=scene, progress=tell, **options)
+        done = br.campaign(table, folder, scene=scene, progress=on_progress, **options)
         seconds = time.perf_counter() - began
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
     assert (done.manifest["status"] == "ok").all()

@@ -144,7 +144,7 @@ def film() -> pl.DataFrame:
     rows = []
     for kind, load, rpm in over:
         scene = bearing(load=load, rpm=rpm)
-        # The film follows the rings' speed, so any instant tells it.
+        # The film follows the rings' speed, so any instant has it.
         out = br.simulate(scene, duration=1e-3, settle=0.0)
         rows += [{
             "over": kind, "load": load, "rpm": rpm, "race": race,

@@ -25,7 +25,7 @@ of position say nothing about what error of it matters; with it on LSODA takes m
 Times are processor times of one thread: on an idle machine wall time, and on a loaded one still comparable.
 Peers alternate in rounds; a ratio is the median of the rounds' ratios, with their range. The time at an error is
 interpolated on a program's front of error and cost; where all its settings do better, it is the cheapest one's.
-Needs the extras ``bench`` and ``test``; what is not installed is skipped, and said so.
+Needs the extras ``bench`` and ``test``; what is not installed is skipped, and listed.
 """
 
 from __future__ import annotations

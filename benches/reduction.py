@@ -90,9 +90,9 @@ def draw(table: pl.DataFrame, path: Path) -> None:
     ):
         axes.barh([p + shift for p in places], table[column], 0.38, label=label, color=colour)
     for place, row in zip(places, table.iter_rows(named=True), strict=True):
-        told = f"{row['ratio']:.2f} ×, {row['states']} of {row['states_full']} states"
+        text = f"{row['ratio']:.2f} ×, {row['states']} of {row['states_full']} states"
         axes.text(
-            max(row["seconds"], row["seconds_full"]), place, f"  {told}", va="center", fontsize=8
+            max(row["seconds"], row["seconds_full"]), place, f"  {text}", va="center", fontsize=8
         )
     axes.set_yticks(list(places), table["scene"])
     axes.invert_yaxis()

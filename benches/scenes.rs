@@ -54,7 +54,7 @@ fn main() {
             continue;
         }
         let mut seconds = Vec::new();
-        let mut told = (0, 0);
+        let mut last = (0, 0);
         for _ in 0..runs {
             let begun = Instant::now();
             let out = simulate(&scene, &run).expect("the scene runs");
@@ -62,14 +62,14 @@ fn main() {
             let mut bits = DefaultHasher::new();
             let numbers = out.columns.iter().flat_map(|column| &column.values);
             numbers.for_each(|x| x.to_bits().hash(&mut bits));
-            told = (out.stats.nfev, bits.finish());
+            last = (out.stats.nfev, bits.finish());
         }
         seconds.sort_by(f64::total_cmp);
         println!(
             "{name:17} {:8.4} {:8} {:016x}",
             seconds[runs / 2],
-            told.0,
-            told.1
+            last.0,
+            last.1
         );
     }
 }

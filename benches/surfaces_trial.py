@@ -52,7 +52,7 @@ class Row:
     shape: str | None
     texture: tuple[float, float] | None = None
     scatter: bool = False
-    heard: bool = False
+    housing: bool = False
     outer: tuple[float, ...] = ()
     inner: tuple[float, ...] = ()
 
@@ -69,9 +69,9 @@ ROWS = (
         outer=(0.49, 23, 1.0, 0.98, 0.94), inner=(0.35, 34, 0.93, 0.89, 0.83)),
     Row("pit, texture 2 nm, s 1.7", "pit", LOUD,
         outer=(0.547, 19, 1.0, 1.0, 0.97), inner=(0.417, 19, 0.81, 0.83, 0.83)),
-    Row("pit, housing", "pit", heard=True,
+    Row("pit, housing", "pit", housing=True,
         outer=(2.80, 7.0, 0.73, 0.63, 0.63), inner=(1.82, 13, 0.73, 0.76, 0.49)),
-    Row("pit, texture 2 nm, s 1.7, housing", "pit", LOUD, heard=True,
+    Row("pit, texture 2 nm, s 1.7, housing", "pit", LOUD, housing=True,
         outer=(3.14, 5.7, 0.70, 0.61, 0.61), inner=(1.93, 7.0, 0.60, 0.64, 0.60)),
 )  # fmt: skip
 
@@ -101,7 +101,7 @@ def damage(shape: str | None, race: str) -> br.scene.Defect | None:
     return br.defects.spall(on=f"{race}_race", width_mm=WIDTH, length_mm=4.0)
 
 
-def heard(scene: br.Scene, housing: br.measuring.Housing | None) -> NDArray[np.float64]:
+def logged(scene: br.Scene, housing: br.measuring.Housing | None) -> NDArray[np.float64]:
     """Return what a logger at 12 kHz has of a run, on request through a housing."""
     out = br.simulate(scene, duration=BEGUN + DURATION, fs=FS)
     chain = br.measuring.Chain(housing=housing, logger=br.measuring.Logger(fs=12_000.0))
@@ -125,16 +125,16 @@ def judged(row: Row, race: str, seeds: int) -> NDArray[np.float64]:
     for scene in scenes(row, race, seeds):
         rates = br.fault_frequencies(scene)
         rate = rates.bpfo if race == "outer" else rates.bpfi
-        x = heard(scene, HOUSING if row.heard else None)
+        x = logged(scene, HOUSING if row.housing else None)
         found.append(facts(x, rate if row.shape else None))
     return np.array(found)
 
 
-def cell(found: NDArray[np.float64], told: Sequence[float]) -> str:
+def cell(found: NDArray[np.float64], trial: Sequence[float]) -> str:
     """Return the facts of a row beside those of the trial."""
     middle, low, high = (of(found, axis=0) for of in (np.median, np.min, np.max))
     texts = []
-    for k, theirs in enumerate(told):
+    for k, theirs in enumerate(trial):
         spread = f" ({low[k]:.2g}–{high[k]:.2g})" if len(found) > 1 else ""
         texts.append(f"{middle[k]:.2g}{spread} / {theirs:.2g}")
     return ", ".join(texts)
@@ -154,8 +154,8 @@ def main() -> None:
     for row in ROWS:
         races = {"outer": row.outer, "inner": row.inner}
         cells = [
-            cell(judged(row, race, options.seeds), told) if told else ""
-            for race, told in races.items()
+            cell(judged(row, race, options.seeds), trial) if trial else ""
+            for race, trial in races.items()
         ]
         lines.append(f"| {row.name} | {' | '.join(cells)} |")
         print(lines[-1], file=sys.stderr, flush=True)

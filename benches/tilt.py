@@ -10,7 +10,7 @@
 - wheel: the wheel bearing's load at the bearing's centre and at the tyre, and what a spall on its outer race says;
 - whirl: of a rotor on a tilt spring, and precession of a free one, over speed;
 - tumble: a small cap on a ball whose axis is held, and on one that spins freely;
-- cost: of a simulated second with axial and free spin, parallel and leaning rings.
+- cost: of a simulated second with axial and free spin, parallel and tilting rings.
 """
 
 from __future__ import annotations

@@ -147,7 +147,7 @@ def simulated(folder: Path, variant: str, per_class: int) -> br.learn.Simulated:
 
 @functools.cache
 def features(folder: Path, variant: str, per_class: int, seed: int = 1) -> tuple[Any, Any, Any]:
-    """Return the features of a variant, as heard by its machines, or by others."""
+    """Return the features of a variant, as measured at its machines, or by others."""
     data = simulated(folder, variant, per_class)
     if seed != 1:
         machines = logged(chains(lambda machine: machine, seed), data.fs)
@@ -168,13 +168,16 @@ def held_out(folder: Path, per_class: int) -> dict[str, list[float]]:
     ways = ("the whole recipe", "trained on a 6306"), ("trained on a 6306", "the whole recipe")
     found = {}
     for name, classifier in CLASSIFIERS.items():
-        told = []
+        accuracies = []
         for ours, others in ways:
             model = br.learn.Diagnoser(classifier=classifier)
             model.fit(*features(folder, ours, per_class))
             X, truth, _ = features(folder, others, per_class, 2)
-            told += [model.held_out_accuracy_, balanced_accuracy_score(truth, model.predict(X))]
-        found[name] = told
+            accuracies += [
+                model.held_out_accuracy_,
+                balanced_accuracy_score(truth, model.predict(X)),
+            ]
+        found[name] = accuracies
     return found
 
 
@@ -230,8 +233,8 @@ def tested(model: br.learn.Diagnoser, records: list[Record]) -> Tested:
 
 def by_verdict(records: list[Record]) -> Tested:
     """Judge all records, and pieces of 25 turns, by the verdict, which learns nothing."""
-    found = [told(record.channel) for record in records]
-    pieces = [(r.truth, told(p)) for r in records for p in pieces_of(r.channel, 25.0, 1e6)]
+    found = [verdict_of(record.channel) for record in records]
+    pieces = [(r.truth, verdict_of(p)) for r in records for p in pieces_of(r.channel, 25.0, 1e6)]
     of_windows, windows = map(list, zip(*pieces, strict=True))
     sources = [r.source for r in records]
     return Tested(
@@ -239,7 +242,7 @@ def by_verdict(records: list[Record]) -> Tested:
     )
 
 
-def told(record: br.Channel) -> str:
+def verdict_of(record: br.Channel) -> str:
     """Return the class that the verdict names."""
     found = br.diagnose(record, "6205")
     return found.verdict if found.verdict != "damaged" else "+".join(found.parts)
@@ -267,7 +270,7 @@ HEAD = f"| {' | '.join(COLUMNS)} |\n|{'---|' * len(COLUMNS)}"
 
 
 def domain(data: br.learn.Simulated, records: list[Record]) -> str:
-    """Return how well simulated and measured records of each class can be told apart, and by what."""
+    """Return how well simulated and measured records of each class can be separated, and by what."""
     lines, rows = br.learn.EnvelopeLines("6205"), list[str]()
     alone: dict[str, list[list[float]]] = {}
     labels, bearings = (data.windows[name].to_numpy() for name in ("label", "bearing_id"))
@@ -281,11 +284,11 @@ def domain(data: br.learn.Simulated, records: list[Record]) -> str:
         rows.append(
             f"| {truth.replace('_', ' ')} | {found.auc:.3f} | {found.auc_without_path:.3f} |"
         )
-        for name, *told in found.features.select(
+        for name, *numbers in found.features.select(
             "feature", "auc", "simulated", "measured"
         ).iter_rows():
-            alone.setdefault(name, []).append(told)
-    worst = sorted(alone, key=lambda name: -np.mean([told[0] for told in alone[name]]))[:10]
+            alone.setdefault(name, []).append(numbers)
+    worst = sorted(alone, key=lambda name: -np.mean([numbers[0] for numbers in alone[name]]))[:10]
     table = [
         f"| {name} | {' | '.join(f'{a:.2f}: {s:.3g}, {m:.3g}' for a, s, m in alone[name])} |"
         for name in worst
@@ -351,8 +354,8 @@ def report(folder: Path, per_class: int, records: list[Record]) -> str:
     rows.append(row("verdict without training", by_verdict(records)))
     data = simulated(folder, "the whole recipe", per_class)
     chosen = "\n".join(
-        f"| {name}{' (chosen)' if name == best else ''} | {' | '.join(f'{share:.3f}' for share in told)} |"
-        for name, told in choice.items()
+        f"| {name}{' (chosen)' if name == best else ''} | {' | '.join(f'{share:.3f}' for share in shares)} |"
+        for name, shares in choice.items()
     )
     betrayed = domain(data, records)
     sizes = (

@@ -3,7 +3,7 @@
     python benches/verdict_library.py [--runs FOLDER]
 
 writes ``python/ballrace/diagnosis/library.csv``: 480 runs of 25 turns, healthy and damaged, half of them with
-waves of the races, half with textures. Each is heard three times without its first turn, and one with a damaged
+waves of the races, half with textures. Each is recorded three times without its first turn, and one with a damaged
 race three more times for its width alone: through a housing by chance or none, in white noise of 0.05 to 2 m/s²,
 logged at 12.8, 25.6 or 51.2 kHz. With a folder the runs are kept there, and those that are there are not simulated
 anew: a change of what is *found* in records needs none.
@@ -129,7 +129,7 @@ def run(of: Case, folder: Path) -> NDArray[np.float64]:
     return np.load(path).astype(np.float64)[int(FS * 60.0 / of.rpm) :]
 
 
-def hear(of: Case, x: NDArray[np.float64], time_: int) -> tuple[br.Channel, float]:
+def recorded(of: Case, x: NDArray[np.float64], time_: int) -> tuple[br.Channel, float]:
     """Return a record of a run, and how far its noise is below it [dB]."""
     rng = np.random.default_rng([43, of.number, time_])
     fs = float(rng.choice([12_800.0, 25_600.0, 51_200.0]))
@@ -140,28 +140,28 @@ def hear(of: Case, x: NDArray[np.float64], time_: int) -> tuple[br.Channel, floa
             seed=1000 + 10 * of.number + time_, band=(3_000.0, 15_000.0)
         )
     logger = br.measuring.Logger(fs=fs) if fs < FS else None
-    heard = br.measure(x, fs=FS, housing=housing, logger=logger).x
-    snr = 20.0 * math.log10(heard.std() / noise)
-    heard = heard + noise * rng.normal(size=heard.size)
-    return br.Channel(x=heard, fs=fs, unit="m/s^2", shaft=of.rpm / 60.0), snr
+    measured = br.measure(x, fs=FS, housing=housing, logger=logger).x
+    snr = 20.0 * math.log10(measured.std() / noise)
+    measured = measured + noise * rng.normal(size=measured.size)
+    return br.Channel(x=measured, fs=fs, unit="m/s^2", shaft=of.rpm / 60.0), snr
 
 
 def row_of(of: Case, record: br.Channel, snr: float, judged: bool) -> dict[str, str | float]:
     """Return what is found in a record."""
-    told: dict[str, str | float] = {
+    row: dict[str, str | float] = {
         "bearing": of.bearing.designation, "part": of.part or "none", "speed_rpm": of.rpm, "load": of.load,
         "width": of.width, "edge": of.edge, "fs": record.fs, "snr_db": snr,
     }  # fmt: skip
-    told |= evidence_of(of, record) if judged else dict.fromkeys(EVIDENCE, math.nan)
+    row |= evidence_of(of, record) if judged else dict.fromkeys(EVIDENCE, math.nan)
     names = ("spacing", "height", "above", "bands", "agreeing")
-    told |= dict.fromkeys(names, math.nan)
+    row |= dict.fromkeys(names, math.nan)
     if of.part in ACCUSED[:2]:
         passes = passes_of(
             record.x, record.fs, along(of.bearing, of.part, nominal(of), of.bearing.contact_angle)
         )
         if passes is not None:
-            told |= {name: getattr(passes, name) for name in names}
-    return told
+            row |= {name: getattr(passes, name) for name in names}
+    return row
 
 
 def nominal(of: Case) -> float:
@@ -173,12 +173,12 @@ def nominal(of: Case) -> float:
 def evidence_of(of: Case, record: br.Channel) -> dict[str, float]:
     """Return the evidence for all parts."""
     found = examined(record, kinematics_of(of.bearing), of.rpm / 60.0)
-    told: list[float] = []
+    values: list[float] = []
     for part in ACCUSED:
         one = found.evidence[part]
         size = at_any_size(one.strength.acceleration, of.bearing.pitch_diameter, found.shaft.rate)
-        told += [one.z, one.strength.depth, size]
-    return dict(zip(EVIDENCE, [*told, one.strength.kurtosis], strict=True))
+        values += [one.z, one.strength.depth, size]
+    return dict(zip(EVIDENCE, [*values, one.strength.kurtosis], strict=True))
 
 
 def main() -> None:
@@ -198,7 +198,7 @@ def main() -> None:
             of = case(number)
             x = run(of, folder)
             count = SIZED if of.part in ACCUSED[:2] else JUDGED
-            rows += [row_of(of, *hear(of, x, k), judged=k < JUDGED) for k in range(count)]
+            rows += [row_of(of, *recorded(of, x, k), judged=k < JUDGED) for k in range(count)]
             print(f"{number + 1} of {options.count}, {time.process_time() - begun:.0f} s", end="\r")
     with options.output.open("w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")

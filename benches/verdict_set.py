@@ -4,11 +4,11 @@
 
 432 records: eight bearings of the catalogue, none of them in the library that verdicts are read against, each in
 nine healthy runs (smooth, waved and textured races) and nine damaged ones (outer race, inner race, a ball that
-spins freely; spalls of 0.02 to 0.45 ball diameters, evenly by their logarithm), heard through housings by chance
-in white noise 20, 10 and 0 dB below the vibration. Runs are of 41 turns, the first of which is not heard, and are
-kept in a folder. Each is judged with the speed known within 1 %, and within 0.1 %. Other seeds make other sets, of
-other bearings. 48 is a forecast; half of its inner races, as of those of 47, have an order that 40 turns tell from
-the shaft's (23 of 49 sizes from 6000 to 6412 have one).
+spins freely; spalls of 0.02 to 0.45 ball diameters, evenly by their logarithm), recorded through housings by
+chance in white noise 20, 10 and 0 dB below the vibration. Runs are of 41 turns, the first of which is left out,
+and are kept in a folder. Each is judged with the speed known within 1 %, and within 0.1 %. Other seeds make other
+sets, of other bearings. 48 is a forecast; half of its inner races, as of those of 47, have an order that 40 turns
+separate from the shaft's (23 of 49 sizes from 6000 to 6412 have one).
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ KINDS: tuple[tuple[str | None, str], ...] = tuple(
 
 
 Row = dict[str, "str | float"]
-"""What is said of a record."""
+"""What a record is and what is found in it."""
 
 
 @dataclass(frozen=True)
@@ -123,20 +123,20 @@ def run(of: Case, folder: Path) -> NDArray[np.float64]:
     return np.load(path).astype(np.float64)[int(FS * 60.0 / of.rpm) :]
 
 
-def hear(of: Case, x: NDArray[np.float64], snr_db: float) -> br.Channel:
+def recorded(of: Case, x: NDArray[np.float64], snr_db: float) -> br.Channel:
     """Return a record of a run in noise so far below it [dB]."""
     rng = np.random.default_rng([of.seed + 100, of.number, round(snr_db)])
     fs = float(rng.choice([25_600.0, 51_200.0]))
     housing = br.measuring.random_housing(seed=int(rng.integers(1 << 30)), band=(3_000.0, 0.3 * FS))
     logger = br.measuring.Logger(fs=fs) if fs < FS else None
-    heard = br.measure(x, fs=FS, housing=housing, logger=logger).x
-    noise = heard.std() * 10.0 ** (-snr_db / 20.0)
-    heard = heard + noise * rng.normal(size=heard.size)
-    return br.Channel(x=heard, fs=fs, unit="m/s^2", shaft=of.rpm / 60.0)
+    measured = br.measure(x, fs=FS, housing=housing, logger=logger).x
+    noise = measured.std() * 10.0 ** (-snr_db / 20.0)
+    measured = measured + noise * rng.normal(size=measured.size)
+    return br.Channel(x=measured, fs=fs, unit="m/s^2", shaft=of.rpm / 60.0)
 
 
-def told(of: Case, record: br.Channel, snr_db: float) -> Row:
-    """Return what is said of a record at each rate of false alarms, and what that rests on."""
+def verdicts_on(of: Case, record: br.Channel, snr_db: float) -> Row:
+    """Return the verdicts on a record at each rate of false alarms, and what that rests on."""
     found = [br.diagnose(record, of.bearing, false_alarm=rate) for rate in RATES]
     row: Row = {
         "number": of.number, "bearing": of.bearing.designation, "part": of.part or "none",
@@ -157,16 +157,16 @@ def told(of: Case, record: br.Channel, snr_db: float) -> Row:
 
 
 def judged(seed: int = SEED, bearings: int = 8, runs: Path = RUNS) -> list[Row]:
-    """Return what is said of the records of the set, of the first so many bearings; one on each core at a time."""
+    """Return the verdicts on the records of the set, of the first so many bearings; one on each core at a time."""
     warnings.simplefilter("ignore", br.SceneWarning)
 
-    def told_of(each: Case) -> list[Row]:
+    def rows_of(each: Case) -> list[Row]:
         x = run(each, runs)
-        return [told(each, hear(each, x, snr), snr) for snr in NOISES]
+        return [verdicts_on(each, recorded(each, x, snr), snr) for snr in NOISES]
 
     rows, begun = [], time.process_time()
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        for number, found in enumerate(pool.map(told_of, cases(seed, bearings))):
+        for number, found in enumerate(pool.map(rows_of, cases(seed, bearings))):
             rows += found
             spent = time.process_time() - begun
             print(f"{number + 1} runs, {spent:.0f} s of processor time", end="\r", file=sys.stderr)
@@ -174,7 +174,7 @@ def judged(seed: int = SEED, bearings: int = 8, runs: Path = RUNS) -> list[Row]:
 
 
 def write(rows: Sequence[Row], path: Path) -> None:
-    """Write what is said of records as a table."""
+    """Write the verdicts on records as a table."""
     with path.open("w", encoding="utf-8", newline="") as file:
         writer = csv.DictWriter(file, list(rows[0]), lineterminator="\n")
         writer.writeheader()
@@ -194,31 +194,31 @@ def _cell(name: str, text: str) -> str | float:
     return text if name.partition("_")[0] in texts else float(text)
 
 
-Told = float | Literal["exact"]
+Rate = float | Literal["exact"]
 """A rate of false alarms, or the first one with the speed known exactly."""
 
 
-def _name(told: Told) -> str:
-    return told if isinstance(told, str) else f"{told:g}"
+def _name(rate: Rate) -> str:
+    return rate if isinstance(rate, str) else f"{rate:g}"
 
 
-def accused(rows: Sequence[Row], told: Told) -> int:
+def accused(rows: Sequence[Row], rate: Rate) -> int:
     """Return how many healthy records are called damaged at a rate of false alarms."""
-    return sum(row["part"] == "none" and row[f"verdict_{_name(told)}"] == "damaged" for row in rows)
+    return sum(row["part"] == "none" and row[f"verdict_{_name(rate)}"] == "damaged" for row in rows)
 
 
-def mistaken(rows: Sequence[Row], told: Told) -> int:
+def mistaken(rows: Sequence[Row], rate: Rate) -> int:
     """Return of how many damaged records a sound part is named."""
-    return sum(row["part"] != "none" and bool(_named(row, told) - {row["part"]}) for row in rows)
+    return sum(row["part"] != "none" and bool(_named(row, rate) - {row["part"]}) for row in rows)
 
 
-def found(rows: Sequence[Row], told: Told) -> float:
+def found(rows: Sequence[Row], rate: Rate) -> float:
     """Return the share of damaged records whose damage is named."""
-    return float(np.mean([row["part"] in _named(row, told) for row in rows]))
+    return float(np.mean([row["part"] in _named(row, rate) for row in rows]))
 
 
-def _named(row: Row, told: Told) -> set[str | float]:
-    return set(str(row[f"parts_{_name(told)}"]).split())
+def _named(row: Row, rate: Rate) -> set[str | float]:
+    return set(str(row[f"parts_{_name(rate)}"]).split())
 
 
 def select(rows: Sequence[Row], **chosen: object) -> list[Row]:
@@ -282,8 +282,8 @@ def summary(rows: Sequence[Row]) -> Iterator[tuple[str, str, str]]:
         yield from _detected(part, select(rows, part=part))
     for by, name in (("z", "z"), ("ratio", "likelihood ratio")):
         areas = [characteristic(select(rows, snr_db=snr), by)[2] for snr in NOISES]
-        told = ", ".join(f"{area:.2f}" for area in areas)
-        yield f"set, area under the ROC of {name}, 20, 10, 0 dB", told, "chance 0.5"
+        text = ", ".join(f"{area:.2f}" for area in areas)
+        yield f"set, area under the ROC of {name}, 20, 10, 0 dB", text, "chance 0.5"
 
 
 def _detected(part: str, rows: Sequence[Row]) -> Iterator[tuple[str, str, str]]:
@@ -291,16 +291,16 @@ def _detected(part: str, rows: Sequence[Row]) -> Iterator[tuple[str, str, str]]:
     for snr in NOISES:
         chosen = select(rows, snr_db=snr)
         pairs = zip(*by_width(chosen), strict=True)
-        told = ", ".join(f"{share:.0%} at {width:.2f}" for width, share in pairs)
+        text = ", ".join(f"{share:.0%} at {width:.2f}" for width, share in pairs)
         yield (
             f"set, {len(chosen)} of a damaged {name}, {snr:g} dB",
             f"{found(chosen, RATES[0]):.0%} named",
-            f"{told} ball diameters",
+            f"{text} ball diameters",
         )
     if part == "inner_race":
         own = [row for row in rows if is_apart(row)]
         others = [row for row in rows if not is_apart(row)]
-        ways: tuple[tuple[Told, str], ...] = (
+        ways: tuple[tuple[Rate, str], ...] = (
             (RATES[0], ""), ("exact", f", the speed known within {EXACT:.1%}"),
         )  # fmt: skip
         for told_, known in ways:
@@ -312,13 +312,13 @@ def _detected(part: str, rows: Sequence[Row]) -> Iterator[tuple[str, str, str]]:
 
 
 def is_apart(row: Row) -> bool:
-    """Whether the turns of a record tell the lines of the inner race from those of the shaft."""
+    """Whether the turns of a record separate the lines of the inner race from those of the shaft."""
     order = br.catalogue[str(row["bearing"])].orders.bpfi
     return TURNS * abs(order - round(order)) >= 8.0
 
 
 def main() -> None:
-    """Write what is said of the set beside its runs."""
+    """Write the verdicts on the set beside its runs."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--runs", type=Path, metavar="FOLDER", default=RUNS)
     parser.add_argument("--seed", type=int, choices=SETS, default=SEED, help="of the set")

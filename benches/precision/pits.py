@@ -109,9 +109,9 @@ def judged(out: br.Signals, true: NDArray[np.float64]) -> dict[str, Any]:
 
 def cheapest(rows: list[dict[str, Any]]) -> list[str]:
     """Say what the defaults reach, and the same method with four times their steps."""
-    told = [row for row in rows if math.isnan(row["cap"])]
+    without_cap = [row for row in rows if math.isnan(row["cap"])]
     lines = []
-    for row in told:
+    for row in without_cap:
         alike = ("speed_rpm", "on", "method", "rtol")
         longer = next(
             r for r in rows if r["cap"] == 4.0 and all(r[key] == row[key] for key in alike)

@@ -70,8 +70,10 @@ def _catalogue() -> str:
         cells += [f"{row.dynamic_rating:.0f}", f"{row.static_rating:.0f}", row.f0 or ""]
         cells += [sources.setdefault(row.sources.balls, len(sources) + 1)]
         lines.append("| " + " | ".join(map(str, cells)) + " |")
-    told = [f"{number}. {source}" for source, number in sources.items()]
-    return "\n".join([*lines, "", "Where number and diameter of the balls come from:", "", *told])
+    numbered = [f"{number}. {source}" for source, number in sources.items()]
+    return "\n".join(
+        [*lines, "", "Where number and diameter of the balls come from:", "", *numbered]
+    )
 
 
 def _marks() -> str:

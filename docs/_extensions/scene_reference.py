@@ -34,8 +34,8 @@ def markdown() -> str:
             if "properties" in inner:
                 parts.append(_section(name, inner, heading=f"{name}: `{tag}`"))
             else:
-                told = f"{inner['description']} ({_holds(inner)})"
-                parts.append(f"({name.lower()})=\n## {name}: `{tag} = …`\n\n{told}")
+                text = f"{inner['description']} ({_holds(inner)})"
+                parts.append(f"({name.lower()})=\n## {name}: `{tag} = …`\n\n{text}")
     return "\n\n".join(parts)
 
 

@@ -106,16 +106,16 @@ def front(ax: Axes) -> None:
 def row(ax: Axes, z: float, side: int, name: str) -> None:
     """Draw one ball between its grooves, with its contact line."""
     ball, conformity, alpha = 0.5, 1.24, np.radians(28.0)
-    lean = np.array([side * np.sin(alpha), np.cos(alpha)])
+    normal = np.array([side * np.sin(alpha), np.cos(alpha)])
     for sign in (1, -1):
-        centre = np.array([z, 2.0]) - sign * (conformity - 1.0) * ball * lean
-        middle = np.degrees(np.arctan2(sign * lean[1], sign * lean[0]))
+        centre = np.array([z, 2.0]) - sign * (conformity - 1.0) * ball * normal
+        middle = np.degrees(np.arctan2(sign * normal[1], sign * normal[0]))
         groove = arc(tuple(centre), conformity * ball, middle - 52, middle + 52)
         top = 3.0 if sign > 0 else 1.0
         body = np.vstack([groove, [[groove[-1, 0], top], [groove[0, 0], top]]])
         ax.add_patch(Polygon(body, fc=STEEL, ec=EDGE, lw=0.8))
     ax.add_patch(Circle((z, 2.0), ball, fc=BALL, ec=EDGE))
-    ends = np.array([[z, 2.0]]) + np.array([[-1.75], [1.55]]) * ball * lean
+    ends = np.array([[z, 2.0]]) + np.array([[-1.75], [1.55]]) * ball * normal
     ax.plot(*ends.T, color=BLUE, lw=1.6)
     ax.plot([z, z], [1.75, 3.35], color=EDGE, lw=0.7, ls="--")
     ax.text(z, 3.42, f"{name}\nside = {side:+d}", ha="center", va="bottom")
@@ -156,8 +156,8 @@ def section(ax: Axes) -> None:
 def slices(ax: Axes) -> None:
     """Draw a ball in a groove, cut into slices: what a slice's numbers are."""
     plain(ax, "a ball is cut along z into slices")
-    ball, groove, sunk, lean = 1.0, 1.3, 0.09, np.radians(24.0)
-    centre = (ball - sunk - groove) * np.array([np.sin(lean), np.cos(lean)])
+    ball, groove, sunk, alpha = 1.0, 1.3, 0.09, np.radians(24.0)
+    centre = (ball - sunk - groove) * np.array([np.sin(alpha), np.cos(alpha)])
     line = arc(tuple(centre), groove, 22, 112)
     body = Polygon(
         np.vstack([line, [[line[-1, 0], 1.65], [line[0, 0], 1.65]]]), fc=STEEL, ec="none"
@@ -239,16 +239,16 @@ def edges(ax: Axes) -> None:
 def place(ax: Axes) -> None:
     """Draw where a defect has to lie along the axis: under the contact, not under the ball's middle."""
     plain(ax, "the same, cut along the axis")
-    ball, groove, lean = 1.0, 1.35, np.radians(28.0)
-    leans = np.array([np.sin(lean), -np.cos(lean)])
-    centre = -(groove - ball) * leans
+    ball, groove, alpha = 1.0, 1.35, np.radians(28.0)
+    normal = np.array([np.sin(alpha), -np.cos(alpha)])
+    centre = -(groove - ball) * normal
     line = arc(tuple(centre), groove, -122, -22)
     ax.add_patch(
         Polygon(np.vstack([line, [[line[-1, 0], -1.6], [line[0, 0], -1.6]]]), fc=STEEL, ec="none")
     )
     ax.plot(*line.T, color=EDGE)
     ax.add_patch(Circle((0, 0), ball, fc=BALL, ec=EDGE))
-    ax.plot([0, 1.22 * leans[0]], [0, 1.22 * leans[1]], color=BLUE, lw=1.4)
+    ax.plot([0, 1.22 * normal[0]], [0, 1.22 * normal[1]], color=BLUE, lw=1.4)
     ax.plot([0, 0], [0.25, -1.75], color=EDGE, lw=0.8, ls="--")
     ax.plot(*arc((0, 0), 0.55, -90, -62).T, color=BLUE, lw=1.2)
     ax.text(0.15, -0.68, "α", color=BLUE, ha="center")
@@ -261,7 +261,7 @@ def place(ax: Axes) -> None:
             ]
         )
         ax.add_patch(Polygon(ring, fc=colour))
-    reach = groove * leans[0] + centre[0]
+    reach = groove * normal[0] + centre[0]
     arrow(ax, (0, -1.7), (reach, -1.7), RED, both=True)
     ax.text(reach + 0.06, -1.72, "axial_offset", color=RED, va="center")
     ax.text(0.66, -1.3, "here the ball\nmeets it", color=RED, ha="left", va="center", fontsize=9)
@@ -378,16 +378,16 @@ def films(ax: Axes) -> None:
 
 
 def reliability(ax: Axes) -> None:
-    """Draw shares of damaged parts over the chances that were told, of bearings that the fit did not see."""
+    """Draw shares of damaged parts over the chances by the fit, of bearings that the fit did not see."""
     rows = judged()
-    told, true = [], []
+    chances, true = [], []
     for part in ACCUSED:
         for bearing in np.unique(rows["bearing"]):
             own = rows[rows["bearing"] == bearing]
             odds = odds_of(fitted(part, True, bearing), rows_of(part, own, True))
-            told += (odds / (1.0 + odds)).tolist()
+            chances += (odds / (1.0 + odds)).tolist()
             true += (own["part"] == part).tolist()
-    chance, damaged = np.array(told), np.array(true)
+    chance, damaged = np.array(chances), np.array(true)
     ax.plot([0, 1], [0, 1], color=EDGE, lw=0.8, ls="--")
     edges = [0.0, 0.05, 0.2, 0.4, 0.6, 0.8, 0.95, 1.0]
     for low, high in pairwise(edges):

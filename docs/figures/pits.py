@@ -79,11 +79,11 @@ def blows(ax: Axes) -> None:
 
 
 def sounds(ax: Axes) -> None:
-    """Draw what a sensor hears behind the housing over three passes."""
+    """Draw what a sensor records behind the housing over three passes."""
     for name, (_, colour) in DAMAGE.items():
         out = run(name)
-        heard = br.measure(out, br.measuring.Chain(housing=HOUSING)).x[-round(0.028 * FS) :]
-        ax.plot(1e3 * np.arange(heard.size) / FS, heard, color=colour, lw=0.8)
+        measured = br.measure(out, br.measuring.Chain(housing=HOUSING)).x[-round(0.028 * FS) :]
+        ax.plot(1e3 * np.arange(measured.size) / FS, measured, color=colour, lw=0.8)
     labelled(ax, "three passes, behind a housing", "time [ms]", "acceleration [m/s²]")
     ax.autoscale(axis="y")
 

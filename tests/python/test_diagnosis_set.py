@@ -32,7 +32,7 @@ def module(monkeypatch: pytest.MonkeyPatch) -> ModuleType:
     return importlib.import_module("verdict_set")
 
 
-def rows_of(*told: tuple[str, str, float, float]) -> list[dict[str, Any]]:
+def rows_of(*cases: tuple[str, str, float, float]) -> list[dict[str, Any]]:
     """Return rows of the table: what is damaged, what is named, the z and the ratio of the outer race."""
     return [
         {"part": part, "width": 0.1 * (k + 1), "snr_db": 20.0, "parts_0.01": named,
@@ -40,7 +40,7 @@ def rows_of(*told: tuple[str, str, float, float]) -> list[dict[str, Any]]:
         | {f"z_{each}": 0.0 for each in ("inner_race", "ball")}
         | {f"ratio_{each}": 100.0 for each in ("inner_race", "ball")}
         | {"z_outer_race": z, "ratio_outer_race": ratio}
-        for k, (part, named, z, ratio) in enumerate(told)
+        for k, (part, named, z, ratio) in enumerate(cases)
     ]  # fmt: skip
 
 
@@ -83,7 +83,7 @@ def test_some_runs_of_the_set(module: ModuleType, tmp_path: Path) -> None:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", br.SceneWarning)
             x = module.run(each, tmp_path)
-        rows.append(module.told(each, module.hear(each, x, 20.0), 20.0))
+        rows.append(module.verdicts_on(each, module.recorded(each, x, 20.0), 20.0))
     assert module.accused(rows, 0.1) == module.mistaken(rows, 0.01) == 0
     # At 1 % one is left open: its lines come by chance in 1.0 % of records.
     assert module.found(rows[1:], 0.05) == 1.0
