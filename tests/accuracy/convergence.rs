@@ -492,7 +492,7 @@ fn observer_finds_the_system_at_the_accepted_state() {
     assert_eq!(watched, alone);
 }
 
-/// Truth: the step at which it was told to stop.
+/// Truth: the step at which it was to stop.
 #[test]
 fn observer_ends_the_run() {
     let mut system = Ode::new(4, kepler);
@@ -553,7 +553,7 @@ fn evaluations_are_counted_exactly() {
 /// Truth: stability theory. With `λ = −10⁴` on a smooth slow solution the step
 /// is held at `h|λ| ≈ 3.3`; with `λ = −1` accuracy holds it.
 #[test]
-fn stiffness_is_told_from_accuracy() {
+fn stiffness_is_distinguished_from_accuracy() {
     for (rate, stiff) in [(1e4, true), (1.0, false)] {
         let mut system = Ode::new(1, |t: f64, y: &[f64], dy: &mut [f64]| {
             dy[0] = -rate * (y[0] - t.cos()) - t.sin();

@@ -158,7 +158,7 @@ fn within_a_percent(count: usize) {
     let (mut found, mut efforts) = (vec![], vec![]);
     for scene in &scenes {
         let Some((error, horizon, [nfev, of_pair])) = judged(scene) else {
-            println!("{}: nothing to tell", scene.name);
+            println!("{}: not judged", scene.name);
             continue;
         };
         let (percent, milliseconds) = (100.0 * error, 1e3 * horizon);

@@ -54,7 +54,7 @@ fn random(noise: &mut Noise) -> Scene {
 /// Relative error of the outer ring's vertical acceleration from one state, against 64 nodes, a fifth of the step cap and
 /// a tolerance of 1e-7 of the request (which Verner's method confirms to a hundredth of it), up to the horizon: the last
 /// moment of 3 ms at which that solution and one that began with its balls 1e-12 m aside are the same to a tenth of the
-/// request. Beyond it nobody can tell. Both \[s\].
+/// request. Beyond it nothing can be judged. Both \[s\].
 fn error_and_horizon(scene: &Scene, accuracy: f64) -> (f64, f64) {
     let mut fine = scene.clone();
     fine.contact.slices = Slices::Fitted(64);
@@ -96,7 +96,7 @@ fn error_and_horizon(scene: &Scene, accuracy: f64) -> (f64, f64) {
     last
 }
 
-/// In 95 of 100 scenes that can be told the asked accuracy is met.
+/// In 95 of 100 scenes that can be judged the asked accuracy is met.
 fn within(accuracy: f64, scenes: usize, seed: u64) {
     let mut noise = Noise(seed);
     let mut found: Vec<(f64, f64)> = Vec::new();
@@ -145,7 +145,7 @@ fn finer_requests_are_met() {
 
 /// Fixed slices are the user's model and stay; a finer request costs more; the scene that comes back holds the choice.
 #[test]
-fn the_choice_is_told() {
+fn the_choice_is_reported() {
     let scene = presets::wheel_bearing(3000.0);
     let asked = |accuracy: Option<f64>| Run {
         duration: 1e-3,

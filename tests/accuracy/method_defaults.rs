@@ -210,7 +210,7 @@ fn judge(cases: impl Iterator<Item = Case>) -> usize {
     println!("error in % (! warned of), thousands of evaluations a ms: {METHODS:?}");
     for case in cases {
         let Some(truth) = truth(&case) else {
-            println!("{}: nothing to tell", case.name);
+            println!("{}: not judged", case.name);
             continue;
         };
         judged += 1;
@@ -226,19 +226,19 @@ fn judge(cases: impl Iterator<Item = Case>) -> usize {
             };
             let error =
                 running_errors(&accelerations(&out), &truth.accelerations)[truth.samples - 1];
-            let told = !out.warnings().is_empty();
+            let is_warned_of = !out.warnings().is_empty();
             let evaluations = out.stats.nfev as f64 / 3e3;
             print!(
                 " {:.2}{} {evaluations:.2},",
                 100.0 * error,
-                if told { "!" } else { "" }
+                if is_warned_of { "!" } else { "" }
             );
-            if told {
+            if is_warned_of {
                 *warned += 1;
             } else {
                 *worst = worst.max(error);
             }
-            if error > MOST && !told {
+            if error > MOST && !is_warned_of {
                 bad.push(format!(
                     "{} by {method:?}: {:.1} %",
                     case.name,

@@ -242,7 +242,7 @@ fn stiff_friction_holds_no_steps_short() {
     assert!(explicit.nfev > 100 * counts[2], "{explicit:?} {counts:?}");
 }
 
-/// A body that is pushed for a tenth of a second, and said to relax at some rate.
+/// A body that is pushed for a tenth of a second, and given a rate at which it relaxes.
 struct Pushed {
     relaxation: f64,
 }

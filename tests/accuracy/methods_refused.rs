@@ -65,8 +65,8 @@ fn a_method_without_an_error_estimate_takes_fixed_steps_only() {
         b_err: &[0.0; 7],
         ..DORMAND_PRINCE
     };
-    let told = refusal(decayed(&blind, 3, &Options::default()));
-    assert!(told.contains("fixed_step"), "{told}");
+    let message = refusal(decayed(&blind, 3, &Options::default()));
+    assert!(message.contains("fixed_step"), "{message}");
     let fixed = Options {
         fixed_step: Some(0.05),
         ..Options::default()
@@ -100,15 +100,15 @@ fn coefficients_that_do_not_fit_are_refused() {
             ..DORMAND_PRINCE
         },
     ] {
-        let told = refusal(decayed(&tableau, 2, &Options::default()));
-        assert!(told.contains("coefficients"), "{told}");
+        let message = refusal(decayed(&tableau, 2, &Options::default()));
+        assert!(message.contains("coefficients"), "{message}");
     }
 }
 
 #[test]
 fn places_without_velocities_are_refused() {
-    let told = refusal(decayed(&Adams, 3, &Options::default()));
-    assert!(told.contains("even"), "{told}");
+    let message = refusal(decayed(&Adams, 3, &Options::default()));
+    assert!(message.contains("even"), "{message}");
     // An explicit method does not ask what its states are.
     assert!(decayed(&DORMAND_PRINCE, 3, &Options::default()).is_ok());
 }
@@ -120,8 +120,8 @@ fn a_controller_without_numbers_is_refused() {
             controller,
             ..Options::default()
         };
-        let told = refusal(decayed(&DORMAND_PRINCE, 2, &options));
-        assert!(told.contains("controller"), "{told}");
+        let message = refusal(decayed(&DORMAND_PRINCE, 2, &options));
+        assert!(message.contains("controller"), "{message}");
     };
     let default = Controller::default();
     for wrong in [f64::NAN, 0.0, -1.0, f64::INFINITY] {

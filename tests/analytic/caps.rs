@@ -49,7 +49,7 @@ fn with_pit(scene: Scene, race: Race) -> Scene {
     with_round(scene, race, pit.at_offset(0.1e-3))
 }
 
-/// With a round defect of ball 0 whose place is said from where it meets a race.
+/// With a round defect of ball 0 whose place is given from where it meets a race.
 fn with_round(mut scene: Scene, race: Race, mut defect: Defect) -> Scene {
     let row = &scene.rows[0];
     let outwards = if race == Race::Outer {
@@ -133,9 +133,9 @@ fn a_cap_in_the_middle_keeps_the_plane() {
         let mut scene = scene.clone();
         let cap = Defect::cap(0.0, 1e-3, 0.3e-3).at_offset(offset);
         scene.defects.insert("pit".to_owned(), cap);
-        let told = explain(&scene).unwrap().to_string();
-        println!("{told}");
-        told
+        let text = explain(&scene).unwrap().to_string();
+        println!("{text}");
+        text
     };
     let off = "a ball's defect is off the middle";
     assert!(!with(0.0).contains(off) && with(0.2e-3).contains(off));

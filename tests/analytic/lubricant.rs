@@ -153,8 +153,8 @@ fn unusable_numbers_are_refused_by_name() {
         ("oil", json!("vg46"), "vg32, vg68, vg100, vg220, fva3"),
     ];
     for (field, value, allowed) in cases {
-        let [path, told, why] = refused(with(vg68(&json!({field: value}))));
-        assert_eq!(path, format!("lubricant.{field}"), "{told}: {why}");
+        let [path, value, why] = refused(with(vg68(&json!({field: value}))));
+        assert_eq!(path, format!("lubricant.{field}"), "{value}: {why}");
         assert!(why.contains(allowed), "{field}: {why}");
     }
     let [path, ..] = refused(with(vg68(&json!({"viscosity": 68e-6}))));
@@ -182,7 +182,7 @@ fn what_is_not_finite_is_refused() {
     }
 }
 
-/// What is missing, or said twice.
+/// What is missing, or given twice.
 #[test]
 fn half_a_lubricant_is_refused() {
     let [path, _, why] = refused(with(json!({"oil": "vg68"})));
@@ -215,7 +215,7 @@ fn half_a_lubricant_is_refused() {
     assert!(why.contains("flow"), "{why}");
 }
 
-/// Films need a speed: the drive's, or one that is said; of a row as well.
+/// Films need a speed: the drive's, or one that is given; of a row as well.
 #[test]
 fn a_bearing_at_rest_needs_a_reference_speed() {
     let mut scene = with(vg68(&json!({}))).unwrap();
@@ -252,7 +252,7 @@ fn a_lubricant_may_be_read_alone() {
     }
 }
 
-/// A raised slip scale is what the guide recommends where vibration alone is asked: doubted where torque is told or drives.
+/// A raised slip scale is what the guide recommends where vibration alone is asked: doubted where torque is recorded or drives.
 #[test]
 fn a_raised_slip_floor_is_doubted_where_torque_counts() {
     let raised = with(vg68(&json!({"slip_floor": 0.05}))).unwrap();

@@ -48,7 +48,7 @@ fn steady(scene: &Scene) -> Signals {
     run(scene, &record)
 }
 
-/// Analytic: forces by origin take out what is told, each its own; rolling resistance counts as friction.
+/// Analytic: forces by origin take out the powers that are reported, each its own; rolling resistance counts as friction.
 #[test]
 fn powers_are_those_of_the_forces() {
     let model = compile(&oiled(55.0)).unwrap();
@@ -62,7 +62,7 @@ fn powers_are_those_of_the_forces() {
     ];
     assert!(energy.rolling_power > 0.1 && energy.friction_power > 0.1);
     let parts = contributions(&model, 0.0, &y);
-    for (origin, told) in lost {
+    for (origin, power) in lost {
         let (_, forces) = parts.iter().find(|(name, _)| *name == origin).unwrap();
         let taken = -forces
             .iter()
@@ -70,8 +70,8 @@ fn powers_are_those_of_the_forces() {
             .map(|(f, v)| f * v)
             .sum::<f64>();
         assert!(
-            (told / taken - 1.0).abs() < 1e-11,
-            "{origin}: {told} of {taken}"
+            (power / taken - 1.0).abs() < 1e-11,
+            "{origin}: {power} of {taken}"
         );
     }
     // One row: the bearing's.
@@ -99,16 +99,16 @@ fn friction_torque_is_the_balls_moment_and_resists_either_way() {
             .filter(|(name, _)| ["contact", "damping", "friction"].contains(name))
             .map(|(_, forces)| forces[4 + 3])
             .sum();
-        let told = inspect::lubrication(&model, &y, 0).friction_torque;
+        let torque = inspect::lubrication(&model, &y, 0).friction_torque;
         assert!(
-            (told + moment * speed.signum()).abs() < 1e-12 * told,
-            "{told}, {moment}"
+            (torque + moment * speed.signum()).abs() < 1e-12 * torque,
+            "{torque}, {moment}"
         );
-        assert!(told > 2e-3, "{told}");
+        assert!(torque > 2e-3, "{torque}");
     }
 }
 
-/// Truth: what the state at the same time tells. Films are the specification's for this bearing (section 12.10): 0.19 to
+/// Truth: the state at the same time. Films are the specification's for this bearing (section 12.10): 0.19 to
 /// 0.23 µm, the outer race's the thicker.
 #[test]
 fn the_probe_reads_the_state() {
@@ -137,20 +137,20 @@ fn the_probe_reads_the_state() {
             .map(|(n, u)| (n.as_str(), *u))
             .collect::<Vec<_>>()
     );
-    let told = inspect::lubrication(&model, &y, 0);
-    for (column, value) in out.columns.iter().zip(told.values()) {
+    let read = inspect::lubrication(&model, &y, 0);
+    for (column, value) in out.columns.iter().zip(read.values()) {
         assert!(
             (column.values[0] - value).abs() <= 1e-9 * value.abs(),
             "{}",
             column.name
         );
     }
-    let [outer, inner] = told.film;
+    let [outer, inner] = read.film;
     assert!(
         0.19e-6 < inner && inner < outer && outer < 0.235e-6,
-        "{told:?}"
+        "{read:?}"
     );
-    assert!((told.lambda[0] / (outer / 1e-7) - 1.0).abs() < 1e-12);
+    assert!((read.lambda[0] / (outer / 1e-7) - 1.0).abs() < 1e-12);
 }
 
 /// Analytic: films follow the rings' speed against each other, with the exponent 2/3 but for heat.
@@ -236,7 +236,7 @@ fn doubted(scene: &Scene) -> Vec<String> {
 /// Literature: the reference contact of section 12.14, whose load and speed are given to the films: 0.2309 µm on the outer
 /// race, μ 0.0483, v 3.54 mm/s. Truth: without given ones they are ΣQ²/ΣQ of the dry equilibrium, and the drive's.
 #[test]
-fn equilibrium_tells_the_films() {
+fn equilibrium_gives_the_films() {
     let mut scene = oiled(55.0);
     let films = equilibrium(&scene).unwrap().films;
     let races: Vec<_> = films.iter().map(|film| (film.row, film.race)).collect();
@@ -270,20 +270,20 @@ fn equilibrium_tells_the_films() {
         (outer.pressure, 1.40094e9),
         (outer.ellipticity, 1.0 / 0.15699),
     ];
-    for (told, published) in expected {
+    for (found, published) in expected {
         assert!(
-            (told / published - 1.0).abs() < 1e-3,
-            "{told} of {published}"
+            (found / published - 1.0).abs() < 1e-3,
+            "{found} of {published}"
         );
     }
 }
 
 /// The same numbers, in words, with where they come from, and what the oil costs and changes.
 #[test]
-fn explain_tells_the_oil() {
+fn explain_gives_the_oil() {
     let mut scene = oiled(55.0);
-    let told = explain(&scene).unwrap();
-    let oil = &told.oils[0];
+    let explanation = explain(&scene).unwrap();
+    let oil = &explanation.oils[0];
     assert_eq!(
         (oil.oil.as_deref(), oil.load_from, oil.speed_from),
         (Some("vg68"), "equilibrium", "drive")
@@ -295,14 +295,14 @@ fn explain_tells_the_oil() {
         "without rolling resistance",
         "without the film's damping",
     ] {
-        let offer = told
+        let offer = explanation
             .variants
             .iter()
             .find(|variant| variant.change == change)
             .unwrap();
         assert!(offer.note.contains("of a 6205 under 500 N"), "{offer:?}");
     }
-    let text = told.to_string();
+    let text = explanation.to_string();
     for part in [
         "vg68 at 55 °C, 34.82 mm²/s",
         "outer race: film 0.2",
@@ -399,7 +399,7 @@ fn films_beyond_their_formulas_are_doubted() {
         doubted(&heavy),
         ["row 0, outer film, pressure", "row 0, inner film, pressure"]
     );
-    // What no steel bears is told once, and not as a film's.
+    // What no steel bears is doubted once, and not as a film's.
     let crushed = changed(|scene| scene.loads.get_mut("radial").unwrap().force = 50e3.into());
     assert_eq!(doubted(&crushed), ["contact pressure"]);
 

@@ -257,7 +257,7 @@ fn slow_thick_oil_holds_no_steps_short() {
 
 /// Limits: balls that roll are not warned of, balls that stand still in turning rings are.
 #[test]
-fn slip_that_heats_oil_is_told() {
+fn slip_that_heats_oil_is_warned_of() {
     let scene = bearing(500.0, 1797.0, 55.0);
     let model = compile(&scene).unwrap();
     let rolling = start(&model, &Start::Equilibrium).unwrap();
@@ -267,7 +267,7 @@ fn slip_that_heats_oil_is_told() {
             *value = 0.0;
         }
     }
-    let told = |y: Vec<f64>| {
+    let warnings_of_slip = |y: Vec<f64>| {
         let run = Run {
             duration: 1e-4,
             settle: Some(0.0),
@@ -280,5 +280,5 @@ fn slip_that_heats_oil_is_told() {
             .filter(|text| text.contains("slip of contacts"))
             .count()
     };
-    assert_eq!((told(rolling), told(still)), (0, 1));
+    assert_eq!((warnings_of_slip(rolling), warnings_of_slip(still)), (0, 1));
 }

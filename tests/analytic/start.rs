@@ -75,6 +75,6 @@ fn given_attitudes_are_attitudes() {
 /// What explains a scene also looks at it without its defects, whose balls then have no attitude.
 #[test]
 fn scenes_with_tumbling_balls_are_explained() {
-    let told = explain(&capped()).unwrap();
-    assert!(told.variants.iter().all(|of| of.kept <= told.kept));
+    let found = explain(&capped()).unwrap();
+    assert!(found.variants.iter().all(|of| of.kept <= found.kept));
 }

@@ -1,4 +1,4 @@
-//! Waves of surfaces: where they move a bearing (model section 14.6), and how texture is read, drawn, limited and told.
+//! Waves of surfaces: where they move a bearing (model section 14.6), and how texture is read, drawn, limited and explained.
 
 use ballrace::dynamics::{contributions, rhs};
 use ballrace::scene::{
@@ -244,8 +244,8 @@ fn steps_see_the_shortest_waves() {
     let mut scene = presets::deep_groove_6205(300.0, 80.0, 20_000.0);
     let plain = run(&scene, &short(1e-3)).stats.largest_step;
     scene.rows[0].texture = Some(Texture::of_races(1e-10));
-    let told = &explain(&scene).unwrap().textures;
-    let most = told
+    let textures = &explain(&scene).unwrap().textures;
+    let most = textures
         .iter()
         .map(|of| of.largest_step)
         .fold(f64::INFINITY, f64::min);
@@ -319,9 +319,9 @@ fn without_equilibrium_a_load_is_asked_for() {
     assert!(compile(&scene).is_ok());
 }
 
-/// A texture stands beside listed waves, defects and oil, and is told as model section 14.5 has it.
+/// A texture stands beside listed waves, defects and oil, and is explained as model section 14.5 has it.
 #[test]
-fn a_texture_is_told() {
+fn a_texture_is_explained() {
     let mut scene = textured(1e-9);
     let row = &mut scene.rows[0];
     let texture = row.texture.as_mut().unwrap();
@@ -331,9 +331,9 @@ fn a_texture_is_told() {
         "spall".into(),
         Defect::new(Surface::OuterRace, -1.5, 2e-3, 0.5e-3, 0.3e-3),
     );
-    let told = explain(&scene).unwrap();
-    let [outer, inner, balls] = &told.textures[..] else {
-        panic!("{:?}", told.textures)
+    let explanation = explain(&scene).unwrap();
+    let [outer, inner, balls] = &explanation.textures[..] else {
+        panic!("{:?}", explanation.textures)
     };
     assert_eq!(
         (outer.surface.as_str(), inner.surface.as_str()),
@@ -348,7 +348,7 @@ fn a_texture_is_told() {
     assert!((1e6 * outer.roughness - 0.18).abs() < 0.005, "{outer:?}");
     assert!((1e9 * outer.fine_roughness - 6.6).abs() < 0.1, "{outer:?}");
     assert!((1e-3 * outer.frequency - 7.6).abs() < 0.1, "{outer:?}");
-    let text = told.to_string();
+    let text = explanation.to_string();
     assert!(
         text.contains("outer race of row 0: 1 nm at order 30, slope 2, orders 2 to 127"),
         "{text}"

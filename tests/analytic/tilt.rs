@@ -1,4 +1,4 @@
-//! Rings that tilt, as users meet them: what a scene says, what a run tells of it, and what is refused.
+//! Rings that tilt, as users meet them: what a scene says, what a run records of it, and what is refused.
 
 use crate::common;
 use ballrace::dynamics::Dynamics;
@@ -53,9 +53,9 @@ fn other_documents_say_nothing_of_tilts() {
     }
 }
 
-/// What is said comes back, and can be changed by its path.
+/// Fields come back as they were written, and can be changed by their paths.
 #[test]
-fn what_is_said_of_tilts_comes_back() {
+fn fields_of_tilts_come_back() {
     let mut scene = tilted();
     let load = Load::new(RingName::Inner, [0.0, 1.0, 0.0], 100.0).at([0.0, -0.3, 0.02]);
     scene.loads.insert("wheel".to_owned(), load);
@@ -95,11 +95,11 @@ fn tilts_have_states_where_they_move() {
 }
 
 fn refused(scene: &Scene, field: &str) {
-    let told = match simulate(scene, &rolling(1e-4)) {
+    let message = match simulate(scene, &rolling(1e-4)) {
         Ok(_) => panic!("{field} is taken"),
         Err(error) => error.to_string(),
     };
-    assert!(told.contains(field), "{field}: {told}");
+    assert!(message.contains(field), "{field}: {message}");
 }
 
 /// A field that is refused, and what makes it so.
@@ -190,10 +190,10 @@ fn what_cannot_tilt_is_refused_by_name() {
     }
 }
 
-/// A run by every method tells tilts, moments and an energy that its powers account for.
+/// A run by every method records tilts, moments and an energy that its powers account for.
 #[test]
-fn a_run_tells_tilts() {
-    let mut told = Vec::new();
+fn a_run_records_tilts() {
+    let mut tilts = Vec::new();
     for method in [Method::DormandPrince, Method::Adams, Method::Verner] {
         let mut scene = tilted();
         scene.friction = Friction::None;
@@ -202,13 +202,13 @@ fn a_run_tells_tilts() {
         let tilt = out.get("inner.tilt_x").unwrap();
         assert!(out.get("outer.tilt_x").is_none());
         assert!(out.get("inner.tilt_ay").unwrap()[0].is_finite());
-        told.push(tilt[tilt.len() - 1]);
+        tilts.push(tilt[tilt.len() - 1]);
     }
-    println!("{told:?}");
-    for tilt in &told {
+    println!("{tilts:?}");
+    for tilt in &tilts {
         assert!(
-            tilt.abs() > 1e-7 && (tilt / told[0] - 1.0).abs() < 0.02,
-            "{told:?}"
+            tilt.abs() > 1e-7 && (tilt / tilts[0] - 1.0).abs() < 0.02,
+            "{tilts:?}"
         );
     }
 }
@@ -281,11 +281,11 @@ fn stiff_friction_in_space_costs_the_default_method_nothing() {
     assert!(counts[1] < 2.0 * counts[0], "{counts:?}");
 }
 
-/// A field that breaks a mirror symmetry, and what is said of it.
-type Hair = (&'static str, Box<dyn Fn(&mut Scene)>);
+/// A part of the reason why a mirror symmetry is broken, and the change that breaks it.
+type Asymmetry = (&'static str, Box<dyn Fn(&mut Scene)>);
 
 /// Limits: rings that may tilt do not where the motion is its own mirror image; then they are rings that stay parallel, bit by bit, and
-/// their tilts are left out. What breaks that by a hair is told.
+/// their tilts are left out. What breaks that ever so little is reported.
 #[test]
 fn tilts_that_never_move_are_left_out() {
     let parallel = |scene: &Scene| {
@@ -310,21 +310,21 @@ fn tilts_that_never_move_are_left_out() {
     images.inner_ring.support.tilt_y = Some(Mount::Free);
     assert_eq!(rates(&images), rates(&parallel(&images)));
     images.rows[1].start_angle += 1e-3;
-    let told = explain(&images).unwrap();
-    assert_eq!(told.kept, told.states);
+    let found = explain(&images).unwrap();
+    assert_eq!(found.kept, found.states);
     let mut scene = tilted();
     scene.loads.remove("axial");
     let parallel = parallel(&scene);
     assert_eq!(rates(&scene), rates(&parallel));
-    let [told, plain] = [&scene, &parallel].map(|scene| explain(scene).unwrap());
-    assert_eq!(told.kept, plain.kept);
-    let tilts = |told: &Explanation| {
-        let mut omissions = told.omissions.iter();
+    let [tilting, plain] = [&scene, &parallel].map(|scene| explain(scene).unwrap());
+    assert_eq!(tilting.kept, plain.kept);
+    let tilts = |tilting: &Explanation| {
+        let mut omissions = tilting.omissions.iter();
         omissions
             .find(|of| of.what == "turning about x and y")
             .map(|of| of.degrees)
     };
-    assert_eq!((tilts(&told), tilts(&plain)), (Some(2), None));
+    assert_eq!((tilts(&tilting), tilts(&plain)), (Some(2), None));
     let out = run(&scene, &rolling(2e-4));
     assert!(
         out.get("inner.tilt_x")
@@ -332,7 +332,7 @@ fn tilts_that_never_move_are_left_out() {
             .iter()
             .all(|tilt| *tilt == 0.0)
     );
-    let hairs: Vec<Hair> = vec![
+    let asymmetries: Vec<Asymmetry> = vec![
         (
             "off the ring's centre",
             Box::new(|s| {
@@ -362,12 +362,12 @@ fn tilts_that_never_move_are_left_out() {
             }),
         ),
     ];
-    for (expected, change) in hairs {
+    for (expected, change) in asymmetries {
         let mut scene = scene.clone();
         change(&mut scene);
-        let told = explain(&scene).unwrap();
-        assert_eq!(told.kept, told.states, "{expected}");
-        let reasons: Vec<&String> = told.obstacles.iter().map(|of| &of.reason).collect();
+        let found = explain(&scene).unwrap();
+        assert_eq!(found.kept, found.states, "{expected}");
+        let reasons: Vec<&String> = found.obstacles.iter().map(|of| &of.reason).collect();
         assert!(
             reasons.iter().any(|of| of.contains(expected)),
             "{expected}: {reasons:?}"
@@ -409,7 +409,7 @@ fn oil_lies_in_contacts_of_rings_that_tilt() {
     }
 }
 
-/// A ring that tilts by more than 3° is told, at equilibrium and by a run; one of any bearing in use is not.
+/// A ring that tilts by more than 3° is doubted, at equilibrium and by a run; one of any bearing in use is not.
 #[test]
 fn rings_that_tilt_far_are_doubted() {
     let doubts = |scene: &Scene| {

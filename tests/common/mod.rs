@@ -125,7 +125,7 @@ pub fn soon_over_the_spall(axial_load: f64) -> Scene {
 }
 
 /// A ball of 7.94 mm at angle 0 between held rings that stand still, squeezed by an interference \[m\]; without
-/// gravity, friction, damping and cage. The load rests on a held ring: it only tells how large a contact is.
+/// gravity, friction, damping and cage. The load rests on a held ring: it only gives the size of a contact.
 pub fn one_ball(squeeze: f64) -> Scene {
     let mut scene = presets::deep_groove_6205(1000.0, 0.0, 0.0);
     let fixed = Some(Mount::Fixed);

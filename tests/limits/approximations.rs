@@ -269,12 +269,15 @@ fn an_unloaded_row_goes() {
     let model = compile(&steep(thrust(ONE_ROW))).unwrap();
     let shaken = Shaken::new(&model, 3);
     let reduction = Reduction::of(&model, &shaken.full).unwrap();
-    let told: Vec<&str> = reduction
+    let omitted: Vec<&str> = reduction
         .omissions()
         .iter()
         .map(|o| o.what.as_str())
         .collect();
-    assert!(told.contains(&"balls of the unloaded row"), "{told:?}");
+    assert!(
+        omitted.contains(&"balls of the unloaded row"),
+        "{omitted:?}"
+    );
     assert_eq!(reduction.dim(), 224 - 8 * 13 - 4);
     let free = shaken.free();
     let loads = |row: usize| -> f64 {
@@ -325,9 +328,9 @@ fn an_unloaded_row_goes() {
 
 type Change = fn(&mut Scene);
 
-/// Where an approximation would not hold it is not made, and told.
+/// Where an approximation would not hold it is not made, and the reason is reported.
 #[test]
-fn what_does_not_hold_is_told() {
+fn what_does_not_hold_is_not_made_and_reported() {
     let varying = || {
         TimeFunction::Profile(Profile::Ramp {
             from: 20e3,
@@ -436,7 +439,7 @@ fn rolling_balls_accelerate_as_a_better_solution_does() {
 
 /// A run says what it gave up.
 #[test]
-fn a_run_tells_what_it_gave_up() {
+fn a_run_lists_what_it_gave_up() {
     let scene = wheel(NormalLaw::iso16281(), FLAT);
     let run = Run {
         duration: 1e-4,
@@ -444,8 +447,10 @@ fn a_run_tells_what_it_gave_up() {
         ..Run::default()
     };
     let out = simulate(&scene, &run).unwrap();
-    let told = out.provenance.left_out.iter();
-    let given_up = told.filter(|o| o.reason.starts_with("by request")).count();
+    let omissions = out.provenance.left_out.iter();
+    let given_up = omissions
+        .filter(|o| o.reason.starts_with("by request"))
+        .count();
     assert_eq!((out.provenance.states, given_up), (2 * (26 + 4), 2));
     assert_eq!(out.scene, scene);
 }

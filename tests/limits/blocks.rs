@@ -53,17 +53,17 @@ fn blocks_are_the_record_that_is_kept() {
         (at, blocks) = (rows.end, blocks + 1);
         Continue(())
     };
-    let told = simulate_into(&scene(), &run(), &mut sink, &mut go_on).unwrap();
+    let rest = simulate_into(&scene(), &run(), &mut sink, &mut go_on).unwrap();
     assert_eq!(at, kept.t.len());
     assert!(blocks > 2, "{blocks}");
     let counts = |signals: &Signals| {
         let stats = signals.stats;
         (stats.accepted, stats.nfev, stats.acceleration_residual)
     };
-    assert_eq!(counts(&told), counts(&kept));
-    assert_eq!(told.provenance, kept.provenance);
-    assert_eq!(told.warnings(), kept.warnings());
-    assert!(told.t.is_empty() && told.columns.iter().all(|column| column.values.is_empty()));
+    assert_eq!(counts(&rest), counts(&kept));
+    assert_eq!(rest.provenance, kept.provenance);
+    assert_eq!(rest.warnings(), kept.warnings());
+    assert!(rest.t.is_empty() && rest.columns.iter().all(|column| column.values.is_empty()));
 }
 
 #[test]

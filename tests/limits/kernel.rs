@@ -39,7 +39,7 @@ fn difference_tilted(scene: &Scene, instructions: InstructionSet) -> f64 {
     for oil in of_rows.chain(&mut scene.lubricant) {
         oil.reference_load = Some(1000.0);
     }
-    // What turns round defects of balls across a tilted axis forces by origin do not tell.
+    // What turns round defects of balls across a tilted axis is not among the forces by origin.
     scene
         .defects
         .retain(|_, defect| defect.shape.is_none() || defect.ball.is_none());

@@ -376,11 +376,11 @@ fn signals_agree() {
 
 /// Analytic: the nearest scenes that have not the symmetry keep their states.
 #[test]
-fn a_hair_is_enough() {
+fn a_very_small_amount_is_enough() {
     let without = |scene: &Scene, what: &str| whats(&reduction(scene)).contains(&what);
     let level = plane(NormalLaw::Hertz, false);
     assert!(without(&level, "z") && without(&level, "spin of balls"));
-    let hairs: [(&str, Change); 7] = [
+    let changes: [(&str, Change); 7] = [
         ("thrust", |s| {
             s.loads.get_mut("axial").unwrap().force = 1e-3.into();
         }),
@@ -403,7 +403,7 @@ fn a_hair_is_enough() {
             s.defects.insert("spall".to_owned(), defect);
         }),
     ];
-    for (name, change) in hairs {
+    for (name, change) in changes {
         let mut scene = level.clone();
         change(&mut scene);
         assert!(!without(&scene, "z"), "{name}");
@@ -417,7 +417,7 @@ fn a_hair_is_enough() {
 
     let both = mirrored();
     assert!(without(&both, "balls of row 1"));
-    let hairs: [(&str, Change); 6] = [
+    let changes: [(&str, Change); 6] = [
         ("thrust", |s| {
             s.loads.get_mut("axial").unwrap().force = 1e-3.into();
         }),
@@ -432,7 +432,7 @@ fn a_hair_is_enough() {
             s.rows[0].diameter_errors = (0..13).map(|j| 1e-10 * f64::from(j)).collect();
         }),
     ];
-    for (name, change) in hairs {
+    for (name, change) in changes {
         let mut scene = both.clone();
         change(&mut scene);
         assert!(!without(&scene, "balls of row 1"), "{name}");
@@ -453,7 +453,7 @@ fn the_start_must_be_symmetric_too() {
     }
 }
 
-/// Analytic: `reduce = false` keeps everything, and provenance tells.
+/// Analytic: `reduce = false` keeps everything, and provenance says so.
 #[test]
 fn nothing_is_left_out_on_request() {
     let mut scene = plane(NormalLaw::Hertz, false);

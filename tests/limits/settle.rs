@@ -188,7 +188,7 @@ fn switched_off_it_changes_nothing() {
     }
 }
 
-/// What is asked for is done, and told apart from the run's own effort.
+/// What is asked for is done, and counted apart from the run's own effort.
 #[test]
 fn a_time_may_be_asked_for() {
     let scene = presets::deep_groove_6205(500.0, 100.0, 1800.0);
@@ -216,7 +216,7 @@ fn a_time_may_be_asked_for() {
     }
 }
 
-/// Effort: before t = 0 steps are as long as a loose tolerance lets them be, until the last 3 ms. The tests above tell that nothing of it is
+/// Effort: before t = 0 steps are as long as a loose tolerance lets them be, until the last 3 ms. The tests above show that nothing of it is
 /// left at t = 0.
 #[test]
 fn settling_takes_half_the_evaluations_of_its_time() {
@@ -237,10 +237,10 @@ fn nonsense_is_refused() {
         };
         let scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
         let refused = ballrace::simulate(&scene, &asked);
-        let told = refused.unwrap_err().to_string();
+        let message = refused.unwrap_err().to_string();
         assert!(
-            told.contains("settle") && told.contains("0 to switch"),
-            "{told}"
+            message.contains("settle") && message.contains("0 to switch"),
+            "{message}"
         );
     }
 }

@@ -1,4 +1,4 @@
-//! Defects lie where contacts run, and every run tells which of them balls met.
+//! Defects lie where contacts run, and every run records which of them balls met.
 //!
 //! Truth: the static equilibrium for the places, counting of passes by the kinematics of pure rolling for the rest, and
 //! the signals themselves: what is not touched sounds healthy.
@@ -51,7 +51,7 @@ fn at(offset: f64, defect: Defect) -> Defect {
     defect.at_offset(offset)
 }
 
-fn told(out: &Signals) -> &Touched {
+fn spall_of(out: &Signals) -> &Touched {
     out.provenance
         .defects
         .iter()
@@ -91,17 +91,17 @@ fn a_spall_of_a_7208_is_felt_by_default() {
         "rms healthy {healthy:.3}, placed {:.3}, at 0 {:.3} m/s²; {:?}",
         loudness(&placed),
         loudness(&missed),
-        told(&placed)
+        spall_of(&placed)
     );
-    let of = told(&placed);
+    let of = spall_of(&placed);
     assert_eq!((of.placed, of.share()), (Placed::Contact, Some(1.0)));
     assert!(of.passes >= 1 && of.largest_load > 50.0);
     assert!(loudness(&placed) > 10.0 * healthy);
     assert!(placed.warnings().is_empty(), "{:?}", placed.warnings());
 
-    let of = told(&missed);
+    let of = spall_of(&missed);
     assert_eq!((of.placed, of.share()), (Placed::Given, Some(0.0)));
-    assert_eq!(of.passes, told(&placed).passes);
+    assert_eq!(of.passes, spall_of(&placed).passes);
     assert!((of.contact_offset.unwrap() - number(&placed.scene)).abs() < 0.1e-3);
     assert!((loudness(&missed) / healthy - 1.0).abs() < 0.05);
     let warnings = missed.warnings();
@@ -113,7 +113,7 @@ fn a_spall_of_a_7208_is_felt_by_default() {
     println!("{}", warnings[0]);
 }
 
-/// Truth: the equilibrium that `equilibrium` tells, most loaded contact of each kind.
+/// Truth: the equilibrium that `equilibrium` returns, most loaded contact of each kind.
 #[test]
 fn the_number_is_the_place_of_the_contact_at_equilibrium() {
     for scene in [
@@ -171,7 +171,7 @@ fn all_that_compile_a_scene_place_alike() {
     let first = run(&scene, &short(3e-4));
     let again = run(&first.scene, &short(3e-4));
     assert_eq!(first.columns, again.columns);
-    assert_eq!(told(&again).placed, Placed::Given);
+    assert_eq!(spall_of(&again).placed, Placed::Given);
     // The cage turns past a defect that stays.
     let placed = with(angular_7208(), at(number_here, spall(Surface::InnerRace)));
     assert_eq!(
@@ -298,7 +298,7 @@ fn passes_are_those_of_the_kinematics() {
                 ..short(duration)
             },
         );
-        let of = told(&out);
+        let of = spall_of(&out);
         let wanted = rate * speed * duration;
         println!("{on:?}: {wanted:.2} passes, {of:?}");
         assert!((of.passes as f64 - wanted).abs() <= 1.0, "{on:?}");
@@ -306,15 +306,18 @@ fn passes_are_those_of_the_kinematics() {
     }
 }
 
-/// A cap of a ball is told as any defect, by runs and explanations. One that turns beside both contacts is passed, not touched, and
-/// changes nothing that is heard.
+/// A cap of a ball is reported as any defect, by runs and explanations. One that turns beside both contacts is passed, not touched, and
+/// changes no acceleration.
 #[test]
-fn a_cap_is_told_as_any_defect() {
+fn a_cap_is_reported_as_any_defect() {
     let pit = Defect::cap(-FRAC_PI_2 - 0.2, 1e-3, 0.3e-3);
     let met = with(angular_7208(), pit.clone());
-    let told_of = explain(&met).unwrap();
+    let explanation = explain(&met).unwrap();
     assert_eq!(
-        (told_of.defects[0].passes, told_of.defects[0].touched),
+        (
+            explanation.defects[0].passes,
+            explanation.defects[0].touched
+        ),
         (30, 15)
     );
     let healthy = with(angular_7208(), at(0.0, Defect::cap(0.0, 0.0, 0.3e-3)));
@@ -328,14 +331,14 @@ fn a_cap_is_told_as_any_defect() {
             },
         )
     });
-    let of = told(&signals[0]);
+    let of = spall_of(&signals[0]);
     println!("{of:?}");
     assert!(of.passes >= 2 && of.largest_load > 50.0);
     assert!((of.share().unwrap() - 0.5).abs() <= 0.51 / of.passes as f64);
     // On either race, at opposite places.
     let place = of.contact_offset.unwrap().abs();
     assert!((place - number(&signals[0].scene).abs()).abs() < 0.2e-3);
-    let beside = told(&signals[2]);
+    let beside = spall_of(&signals[2]);
     assert!(beside.passes >= 2 && beside.touched == 0, "{beside:?}");
     let loud = signals.each_ref().map(loudness);
     println!("{loud:?}");
@@ -343,14 +346,14 @@ fn a_cap_is_told_as_any_defect() {
     assert!(loud[0] > 2.0 * loud[1], "{loud:?}");
 }
 
-/// A run too short for a pass is told apart from one whose balls miss.
+/// A run too short for a pass is distinguished from one whose balls miss.
 #[test]
-fn what_no_ball_passed_is_told_apart() {
+fn what_no_ball_passed_is_no_miss() {
     let out = run(
         &with(angular_7208(), spall(Surface::InnerRace)),
         &short(1e-4),
     );
-    assert_eq!((told(&out).passes, told(&out).share()), (0, None));
+    assert_eq!((spall_of(&out).passes, spall_of(&out).share()), (0, None));
     let warnings = out.warnings();
     assert!(
         matches!(&warnings[..], [Warning::Unpassed { .. }]),
@@ -366,15 +369,15 @@ fn what_no_ball_passed_is_told_apart() {
     scene.rows[0].start_angle = FRAC_PI_2;
     // While a ball is still over it, the pass is not over: it may yet touch.
     let out = run(&scene, &short(1e-4));
-    assert_eq!((told(&out).passes, told(&out).share()), (0, None));
+    assert_eq!((spall_of(&out).passes, spall_of(&out).share()), (0, None));
     let warnings = out.warnings();
     assert!(
         matches!(&warnings[..], [Warning::Unpassed { .. }]),
         "{warnings:?}"
     );
     let out = run(&scene, &short(2e-3));
-    assert_eq!((told(&out).passes, told(&out).touched), (1, 0));
-    assert_eq!(told(&out).contact_offset, None);
+    assert_eq!((spall_of(&out).passes, spall_of(&out).touched), (1, 0));
+    assert_eq!(spall_of(&out).contact_offset, None);
     println!("{}", out.warnings()[0]);
 }
 
@@ -398,7 +401,7 @@ fn what_is_advised_was_not_done_before() {
         end: 0.2,
     });
     let out = run(&growing, &short(5e-3));
-    let of = told(&out);
+    let of = spall_of(&out);
     assert_eq!((of.placed, of.share()), (Placed::Contact, Some(0.0)));
     let advice = out.warnings()[0].to_string();
     println!("{advice}");
@@ -410,7 +413,7 @@ fn what_is_advised_was_not_done_before() {
     assert!(advice.contains(&place), "{advice}");
     let place = of.contact_offset.unwrap();
     growing.defects.get_mut(SPALL).unwrap().axial_offset = AxialOffset::At(place);
-    assert!(told(&run(&growing, &short(5e-3))).touched > 0);
+    assert!(spall_of(&run(&growing, &short(5e-3))).touched > 0);
 }
 
 /// Limit: one without width is healthy, and one narrower than a step is not overlooked.
@@ -424,14 +427,14 @@ fn width_counts_from_zero() {
     let none = of(0.0.into());
     assert!(none.provenance.defects.is_empty() && none.warnings().is_empty());
     let narrow = of(1e-7.into());
-    assert_eq!(told(&narrow).share(), Some(1.0));
-    assert!(told(&narrow).passes >= 1);
+    assert_eq!(spall_of(&narrow).share(), Some(1.0));
+    assert!(spall_of(&narrow).passes >= 1);
     // Of a wedge only the part that is wide is there: its thin end reaches under the contact and is none.
     let wedge = of(Width::Profile(WidthProfile::new(
         vec![-1e-3, 0.9e-3, 1e-3],
         vec![0.0, 0.0, 1e-3],
     )));
-    assert!(told(&wedge).largest_load < told(&narrow).largest_load);
+    assert!(spall_of(&wedge).largest_load < spall_of(&narrow).largest_load);
 }
 
 /// What a run leaves out meets no defect.
@@ -454,9 +457,9 @@ fn a_row_left_out_touches_nothing() {
         scene.rows[1].start_angle = scene.rows[0].start_angle;
         let out = run(&scene, &short(3e-3));
         assert!(idle(&out));
-        println!("row {row}: {:?}", told(&out));
-        assert!(told(&out).passes > 0);
-        assert_eq!(told(&out).touched > 0, row == 0);
+        println!("row {row}: {:?}", spall_of(&out));
+        assert!(spall_of(&out).passes > 0);
+        assert_eq!(spall_of(&out).touched > 0, row == 0);
     }
 }
 
@@ -471,7 +474,7 @@ fn without_load_the_nominal_angle_places() {
         ..short(1e-5)
     };
     let out = run(&scene, &still);
-    assert_eq!(told(&out).placed, Placed::Nominal);
+    assert_eq!(spall_of(&out).placed, Placed::Nominal);
     let row = &scene.rows[0];
     let wanted = -row.ball_diameter / 2.0 * row.contact_angle.sin();
     assert!((number(&out.scene) - wanted).abs() <= 1e-9);
@@ -501,8 +504,8 @@ fn a_torque_drive_is_followed() {
         initial_speed: 100.0 * PI,
     };
     let out = run(&scene, &short(4e-3));
-    assert!(told(&out).passes >= 1);
-    assert_eq!(told(&out).share(), Some(1.0));
+    assert!(spall_of(&out).passes >= 1);
+    assert_eq!(spall_of(&out).share(), Some(1.0));
 }
 
 #[test]
@@ -538,23 +541,33 @@ fn what_does_not_fit_there_is_refused() {
 }
 
 #[test]
-fn an_explanation_tells_where_and_whether() {
-    let told = explain(&with(angular_7208(), spall(Surface::InnerRace))).unwrap();
-    let of = &told.defects[0];
+fn an_explanation_has_places_and_touches() {
+    let explanation = explain(&with(angular_7208(), spall(Surface::InnerRace))).unwrap();
+    let of = &explanation.defects[0];
     assert_eq!(
         (of.placed, of.passes, of.touched),
         (Placed::Contact, 15, 15)
     );
     assert!(of.largest_load > 50.0);
-    let text = told.to_string();
+    let text = explanation.to_string();
     println!("{text}");
     assert!(text.contains("where contacts run; touched at 15 of 15 places of a turn"));
-    let told = explain(&with(angular_7208(), at(0.0, spall(Surface::OuterRace)))).unwrap();
-    let of = &told.defects[0];
+    let explanation = explain(&with(angular_7208(), at(0.0, spall(Surface::OuterRace)))).unwrap();
+    let of = &explanation.defects[0];
     assert_eq!((of.placed, of.passes, of.touched), (Placed::Given, 1, 0));
-    assert!(told.to_string().contains("not touched: contacts run at"));
-    let told = explain(&with(angular_7208(), spall(Surface::Ball))).unwrap();
-    assert_eq!((told.defects[0].passes, told.defects[0].touched), (30, 15));
+    assert!(
+        explanation
+            .to_string()
+            .contains("not touched: contacts run at")
+    );
+    let explanation = explain(&with(angular_7208(), spall(Surface::Ball))).unwrap();
+    assert_eq!(
+        (
+            explanation.defects[0].passes,
+            explanation.defects[0].touched
+        ),
+        (30, 15)
+    );
 }
 
 /// Both rows of the wheel bearing, and thrust that moves the contact off a given place.
@@ -565,7 +578,7 @@ fn thrust_decides_whether_a_given_place_is_touched() {
         let start = scene.rows[row].start_angle;
         let spall = scene.defects.get_mut(SPALL).unwrap();
         (spall.row, spall.angle, spall.axial_offset) = (row, start + 0.1, offset);
-        told(&run(&scene, &short(3e-3))).clone()
+        spall_of(&run(&scene, &short(3e-3))).clone()
     };
     let given = passing(3000.0, 0, AxialOffset::At(2.32e-3));
     assert!(given.passes > 0 && given.touched == given.passes);
@@ -589,6 +602,6 @@ fn loads_on_the_outer_ring_place_as_well() {
     std::mem::swap(&mut scene.outer_ring.support, &mut scene.inner_ring.support);
     let stop = |_: f64| std::ops::ControlFlow::Continue(());
     let out = simulate_with_progress(&scene, &short(1e-5), &mut { stop }).unwrap();
-    assert_eq!(told(&out).placed, Placed::Contact);
+    assert_eq!(spall_of(&out).placed, Placed::Contact);
     assert!(number(&out.scene) < -2e-3);
 }

@@ -216,8 +216,8 @@ fn unlike_rows_carry_a_load_and_run() {
 /// Only its own row says how a row's contacts are cut.
 #[test]
 fn each_row_has_as_many_nodes_as_it_asks_for() {
-    let told = ballrace::explain(&unlike(3)).unwrap();
-    let evaluations: Vec<&str> = told
+    let explanation = ballrace::explain(&unlike(3)).unwrap();
+    let evaluations: Vec<&str> = explanation
         .contacts
         .iter()
         .map(|contact| contact.evaluation.as_str())
@@ -228,19 +228,19 @@ fn each_row_has_as_many_nodes_as_it_asks_for() {
 
 #[test]
 fn a_bad_row_is_refused_by_its_path() {
-    let told = |change: fn(&mut Scene)| {
+    let refusal = |change: fn(&mut Scene)| {
         let mut scene = unlike(2);
         change(&mut scene);
         compile(&scene).unwrap_err().to_string()
     };
-    let damping = told(|scene| scene.rows[1].contact.as_mut().unwrap().damping = -1.0);
+    let damping = refusal(|scene| scene.rows[1].contact.as_mut().unwrap().damping = -1.0);
     assert!(damping.contains("rows[1].contact.damping"), "{damping}");
-    let density = told(|scene| scene.rows[1].ball_material.as_mut().unwrap().density = 0.0);
+    let density = refusal(|scene| scene.rows[1].ball_material.as_mut().unwrap().density = 0.0);
     assert!(
         density.contains("rows[1].ball_material.density"),
         "{density}"
     );
-    let slip = told(|scene| {
+    let slip = refusal(|scene| {
         scene.rows[1].friction = Some(Friction::Coulomb {
             coefficient: 0.1,
             slip_speed: 0.0,

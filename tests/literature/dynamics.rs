@@ -172,7 +172,7 @@ fn orbit_of_loaded_balls_under_500_newtons() {
 
 /// One ball between held rings, thrown at a race 1 µs away; nothing else acts on it. Velocity and place along x.
 fn thrown(law: &NormalLaw, outer: bool, damping: f64, speed: f64, fs: f64) -> (Vec<f64>, Vec<f64>) {
-    // The load rests on a held ring: it only tells the integrator how large a contact is.
+    // The load rests on a held ring: it only gives the integrator the size of a contact.
     let mut scene = presets::deep_groove_6205(1000.0, 0.0, 0.0);
     let row = &mut scene.rows[0];
     row.ball_count = 1;

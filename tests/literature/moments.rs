@@ -64,9 +64,9 @@ fn a_radial_load_makes_none() {
     }
 }
 
-/// Truth: the equilibrium. A run that begins there and where nothing moves tells the same, whatever it leaves out.
+/// Truth: the equilibrium. A run that begins there and where nothing moves records the same, whatever it leaves out.
 #[test]
-fn a_run_tells_the_moments_of_its_state() {
+fn a_run_records_the_moments_of_its_state() {
     let mut scene = combined();
     let damped = Mount::Spring {
         stiffness: 0.0,
@@ -79,10 +79,10 @@ fn a_run_tells_the_moments_of_its_state() {
         None,
     ]);
     scene.probes = [("m".to_owned(), Probe::Moments {})].into();
-    let told = equilibrium(&scene).unwrap();
+    let found = equilibrium(&scene).unwrap();
     let out = simulate(&scene, &short(1e-4)).unwrap();
     let columns = ["outer.x", "outer.y", "inner.x", "inner.y"];
-    let [outer, inner] = [told.outer_moment, told.inner_moment];
+    let [outer, inner] = [found.outer_moment, found.inner_moment];
     for (name, truth) in columns.iter().zip([outer, inner].as_flattened()) {
         for value in out.get(&format!("m.{name}")).unwrap() {
             assert!((value - truth).abs() < 1e-5, "{name}: {value} {truth}");

@@ -76,11 +76,11 @@ fn masta_combined_with_a_free_tilt() {
     meets("MASTA tilting, radial shift, µm", 19.592, x, 0.02);
     meets("MASTA tilting, axial shift, µm", 146.46, z, 1e-3);
     meets("MASTA tilting, tilt, mrad", 2.687, tilt, 0.02);
-    let told = [1026.9, 774.1, 476.8, 448.7, 448.7, 476.8, 774.1];
-    for (j, (load, told)) in loads(&found).into_iter().zip(told).enumerate() {
+    let published = [1026.9, 774.1, 476.8, 448.7, 448.7, 476.8, 774.1];
+    for (j, (load, published)) in loads(&found).into_iter().zip(published).enumerate() {
         meets(
             &format!("MASTA tilting, Q {j}, N (computed)"),
-            told,
+            published,
             load,
             2e-3,
         );
@@ -105,9 +105,14 @@ fn a_6205_under_combined_load_tilts() {
         1e6 * found.inner[2],
         3e-3,
     );
-    let told = [344.0, 255.6, 123.3, 85.1, 109.3, 109.3, 85.1, 123.3, 255.6];
-    for (j, (load, told)) in loads(&found).into_iter().zip(told).enumerate() {
-        meets(&format!("6205 free, Q {j}, N (computed)"), told, load, 3e-3);
+    let published = [344.0, 255.6, 123.3, 85.1, 109.3, 109.3, 85.1, 123.3, 255.6];
+    for (j, (load, published)) in loads(&found).into_iter().zip(published).enumerate() {
+        meets(
+            &format!("6205 free, Q {j}, N (computed)"),
+            published,
+            load,
+            3e-3,
+        );
     }
     assert!(aside.abs() < 1e-9 * tilt);
     // What is free carries no moment.
@@ -170,7 +175,7 @@ fn stiffness_of_a_218_with_tilts() {
     assert!(apart < 1e-6, "{apart}");
 }
 
-/// Truth: the solve itself. The stiffness tells how a little more load moves and tilts the ring.
+/// Truth: the solve itself. The stiffness says how a little more load moves and tilts the ring.
 #[test]
 fn stiffness_is_the_slope_of_the_solution() {
     let scene = combined();
@@ -264,9 +269,9 @@ fn a_tilt_that_nothing_holds_is_named() {
     scene.loads.remove("radial");
     scene.rows[0].ball_count = 2;
     scene.inner_ring.support.x = Some(Mount::Fixed);
-    let told = equilibrium(&scene).unwrap_err().to_string();
-    println!("{told}");
-    assert!(told.contains("nothing holds inner.tilt_y"), "{told}");
+    let message = equilibrium(&scene).unwrap_err().to_string();
+    println!("{message}");
+    assert!(message.contains("nothing holds inner.tilt_y"), "{message}");
 }
 
 /// Truth: the balance of moments. The side force of a cornering wheel acts at its tyre, and the wheel's ring tilts by it; at the
@@ -332,9 +337,9 @@ fn a_run_begins_tilted() {
     (support.x, support.y, support.z) = (damped(1e3), damped(1e3), damped(1e3));
     (support.tilt_x, support.tilt_y) = (damped(0.1), damped(0.1));
     scene.solver.method = Method::DormandPrince;
-    let told = equilibrium(&scene).unwrap().inner_tilt[0];
+    let solved = equilibrium(&scene).unwrap().inner_tilt[0];
     let out = simulate(&scene, &short(3e-4)).unwrap();
     for tilt in out.get("inner.tilt_x").unwrap() {
-        assert!((tilt / told - 1.0).abs() < 1e-5, "{tilt} {told}");
+        assert!((tilt / solved - 1.0).abs() < 1e-5, "{tilt} {solved}");
     }
 }

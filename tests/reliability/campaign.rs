@@ -80,7 +80,7 @@ fn a_failed_case_is_an_outcome() {
 
 /// Analytic: the features of a signal are those of its samples, after what is to be skipped.
 #[test]
-fn features_speak_of_the_signal() {
+fn features_are_those_of_the_signal() {
     let options = FeatureOptions {
         columns: Some(vec!["outer.ay".to_owned()]),
         skip: 2e-3,
@@ -99,8 +99,8 @@ fn features_speak_of_the_signal() {
     let peak = signal.iter().fold(0.0_f64, |p, x| p.max(x.abs()));
     assert_eq!(value("outer.ay.peak"), Some(peak));
     let rms = (signal.iter().map(|x| x * x).sum::<f64>() / signal.len() as f64).sqrt();
-    let told = value("outer.ay.rms").unwrap();
-    assert!((told / rms - 1.0).abs() < 1e-14, "{told} {rms}");
+    let found = value("outer.ay.rms").unwrap();
+    assert!((found / rms - 1.0).abs() < 1e-14, "{found} {rms}");
     assert!(
         finished
             .features
@@ -197,7 +197,7 @@ fn options_are_checked() {
 /// A stop ends what runs, pulls no further cases, and reports only what has finished: were the long cases not stopped, this would
 /// take hours.
 #[test]
-fn a_stop_is_heard() {
+fn a_stop_ends_the_work() {
     let mut pulled = 0;
     let endless = std::iter::from_fn(|| {
         pulled += 1;

@@ -1,4 +1,4 @@
-//! Defaults of a scene written from scratch, and what is told of numbers that no bearing has.
+//! Defaults of a scene written from scratch, and the doubts about numbers that no bearing has.
 //!
 //! Truth: catalogue-like bearings of all sizes are ordinary, and the same numbers in another unit are not; Hertz's law
 //! without saying so; what is held does not move.
@@ -54,12 +54,12 @@ fn a_scene_that_names_no_law_has_hertz() {
     assert_eq!(preset.contact.law, NormalLaw::iso16281());
 }
 
-/// Analytic: the told approaches are those of the static solve and of Hertz's F = K δ^{3/2}.
+/// Analytic: the reported approaches are those of the static solve and of Hertz's F = K δ^{3/2}.
 #[test]
 fn explain_says_what_a_law_implies() {
     let mut scene = handwritten();
-    let told = explain(&scene).unwrap();
-    let law = told.law.as_ref().unwrap();
+    let explanation = explain(&scene).unwrap();
+    let law = explanation.law.as_ref().unwrap();
     assert_eq!(
         (&law.law, law.contact.as_str()),
         (&NormalLaw::Hertz, "row0.ball0.outer")
@@ -69,13 +69,14 @@ fn explain_says_what_a_law_implies() {
         "{law}"
     );
     assert!(
-        told.to_string()
+        explanation
+            .to_string()
             .contains("law        Hertz's point contact: under ")
     );
 
     scene.contact.law = NormalLaw::iso16281();
-    let told = explain(&scene).unwrap();
-    let law = told.law.as_ref().unwrap();
+    let explanation = explain(&scene).unwrap();
+    let law = explanation.law.as_ref().unwrap();
     let ball = &equilibrium(&scene).unwrap().balls[0];
     assert_eq!(
         (law.load, law.approach),
@@ -85,7 +86,7 @@ fn explain_says_what_a_law_implies() {
     let ratio = law.approach / law.hertz_approach;
     assert!((2.5..3.2).contains(&ratio), "{law}");
     let sentence = format!("{ratio:.2} × Hertz's");
-    assert!(told.to_string().contains(&sentence), "{told}");
+    assert!(explanation.to_string().contains(&sentence), "{explanation}");
 }
 
 /// Names of the columns of a short run.
@@ -96,7 +97,7 @@ fn columns(scene: &Scene) -> Vec<String> {
 
 #[test]
 fn without_probes_what_can_move_is_recorded() {
-    // The outer ring is fixed where nothing is said of it: the inner one moves.
+    // The outer ring is fixed where the scene does not mention it: the inner one moves.
     let mut scene = handwritten();
     let inner = columns(&scene);
     assert_eq!(inner.len(), 12);
@@ -137,14 +138,14 @@ fn motion(body: &str, components: Option<&[Component]>) -> Probe {
 }
 
 #[test]
-fn columns_that_cannot_change_are_told() {
+fn columns_that_cannot_change_are_doubted() {
     let mut scene = handwritten();
-    let mut told = |probe: Probe| {
+    let mut doubts_of = |probe: Probe| {
         scene.probes = [("p".to_owned(), probe)].into();
         let texts: Vec<String> = scene.doubts().iter().map(ToString::to_string).collect();
         texts.join("\n")
     };
-    let all = told(motion("outer", None));
+    let all = doubts_of(motion("outer", None));
     assert!(
         all.starts_with("probes.p = p.x, p.y, p.z, p.theta, p.vx, "),
         "{all}"
@@ -153,14 +154,14 @@ fn columns_that_cannot_change_are_told() {
         all.contains("holds outer along x, along y, along z, about z"),
         "{all}"
     );
-    let one = told(motion("outer", Some(&[Component::Ay])));
+    let one = doubts_of(motion("outer", Some(&[Component::Ay])));
     assert!(
         one.starts_with("probes.p = p.ay: these columns never change"),
         "{one}"
     );
-    assert_eq!(told(motion("inner", None)), "");
-    assert_eq!(told(motion("row0.ball8", None)), "");
-    assert!(told(Probe::Cage { row: 0 }).contains("no cage"));
+    assert_eq!(doubts_of(motion("inner", None)), "");
+    assert_eq!(doubts_of(motion("row0.ball8", None)), "");
+    assert!(doubts_of(Probe::Cage { row: 0 }).contains("no cage"));
 
     // Along x and y it moves, along z it is held; a given speed turns the inner ring.
     let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
@@ -245,11 +246,11 @@ fn ordinary_bearings_raise_no_doubt() {
 }
 
 #[test]
-fn a_load_beyond_the_static_rating_is_told() {
+fn a_load_beyond_the_static_rating_is_doubted() {
     for size in SIZES {
         let found = equilibrium(&of_size(size, 2.0)).unwrap();
-        let told: Vec<_> = found.doubts.iter().map(|d| d.path.as_str()).collect();
-        assert_eq!(told, ["contact pressure"], "{size:?}");
+        let paths: Vec<_> = found.doubts.iter().map(|d| d.path.as_str()).collect();
+        assert_eq!(paths, ["contact pressure"], "{size:?}");
     }
     let out = run(&of_size(SIZES[5], 2.0), &short(2e-4));
     let pressure = out.stats.largest_pressure;
@@ -258,7 +259,7 @@ fn a_load_beyond_the_static_rating_is_told() {
         if d.to_string().starts_with(&format!("contact pressure = {:.2} GPa", 1e-9 * pressure))));
 }
 
-/// A change of the scene, and the path that has to be told.
+/// A change of the scene, and the path that has to be doubted.
 type Slip = (&'static str, fn(&mut Scene));
 
 /// Numbers in the wrong unit, one each, that validation lets pass.
@@ -430,8 +431,8 @@ fn numbers_in_another_unit_and_fields_without_effect_are_reported() {
     for (path, slip) in SLIPS.iter().chain(LOST) {
         let mut scene = with_everything();
         slip(&mut scene);
-        let told = scene.doubts();
-        assert!(told.iter().any(|d| d.path == *path), "{path}: {told:?}");
+        let doubts = scene.doubts();
+        assert!(doubts.iter().any(|d| d.path == *path), "{path}: {doubts:?}");
         scene.validate().unwrap_or_else(|e| panic!("{path}: {e}"));
     }
 }
@@ -476,12 +477,12 @@ fn speeds_that_bearings_run_at_are_not_taken_for_turns_a_minute() {
     for speed in [1797.0, 1797.5, 18e3 * PI / 30.0] {
         assert_eq!(at(speed), [], "{speed}");
     }
-    let told = at(3500.0)[0].to_string();
+    let text = at(3500.0)[0].to_string();
     for part in [
         "drive.speed = 3500 rad/s: 33420 rev/min",
         "3500 rev/min would be 366.5 rad/s",
     ] {
-        assert!(told.contains(part), "{told}");
+        assert!(text.contains(part), "{text}");
     }
 }
 
@@ -534,8 +535,8 @@ fn machines_drawn_at_random_raise_no_doubt() {
 
 /// Textures that no finished race has.
 #[test]
-fn rough_textures_are_told() {
-    let told = |outer: f64, slope: f64| {
+fn rough_textures_are_doubted() {
+    let is_doubted = |outer: f64, slope: f64| {
         let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
         let mut texture = Texture::of_races(1e-9);
         (texture.outer, texture.slope) = (outer, slope);
@@ -545,13 +546,18 @@ fn rough_textures_are_told() {
             .iter()
             .any(|doubt| doubt.path == "rows[0].texture.outer")
     };
-    assert!(!told(5e-9, 2.0) && told(21e-9, 2.0) && told(6e-9, 2.0) && told(1e-9, 3.0));
+    assert!(
+        !is_doubted(5e-9, 2.0)
+            && is_doubted(21e-9, 2.0)
+            && is_doubted(6e-9, 2.0)
+            && is_doubted(1e-9, 3.0)
+    );
 }
 
 /// A force by a table on a ring that is held along it does nothing.
 #[test]
-fn a_table_of_forces_on_a_held_ring_is_told() {
-    let told = |direction: [f64; 3]| {
+fn a_table_of_forces_on_a_held_ring_is_doubted() {
+    let is_doubted = |direction: [f64; 3]| {
         let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
         let table = TableForce::new(RingName::Outer, direction, [-1e-5, 1e-5], [10.0, -10.0]);
         scene.outer_ring.support.y = Some(Mount::Free);
@@ -560,14 +566,14 @@ fn a_table_of_forces_on_a_held_ring_is_told() {
         let path = "table_forces.seal.direction";
         scene.doubts().iter().any(|doubt| doubt.path == path)
     };
-    assert!(told([1.0, 0.0, 0.0]) && told([1.0, 0.0, 1.0]));
-    assert!(!told([0.0, 1.0, 0.0]) && !told([1.0, 0.1, 0.0]));
+    assert!(is_doubted([1.0, 0.0, 0.0]) && is_doubted([1.0, 0.0, 1.0]));
+    assert!(!is_doubted([0.0, 1.0, 0.0]) && !is_doubted([1.0, 0.1, 0.0]));
 }
 
 /// Slots narrower than 1.3 contacts, which fault circles take for less than they are (model section 15.5); pits are not doubted.
 #[test]
-fn defects_narrower_than_their_contact_are_told() {
-    let told = |defect: Defect| {
+fn defects_narrower_than_their_contact_are_doubted() {
+    let is_doubted = |defect: Defect| {
         let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
         scene.rows[0].start_angle = -FRAC_PI_2;
         scene.defects.insert("slot".to_owned(), defect);
@@ -575,17 +581,21 @@ fn defects_narrower_than_their_contact_are_told() {
         let width = found.defects[0].contact_width.unwrap();
         // 2b of Hertz's ellipse, 0.24 mm under 250 N.
         assert!((0.2e-3..0.3e-3).contains(&width), "{width:e}");
-        let is_told = |doubt: &ballrace::scene::Doubt| doubt.path == "defects.slot.width";
+        let is_of_width = |doubt: &ballrace::scene::Doubt| doubt.path == "defects.slot.width";
         let in_a_run = run(&scene, &short(2e-3)).warnings();
         let of_run = in_a_run
             .iter()
-            .any(|of| matches!(of, Warning::Doubtful(doubt) if is_told(doubt)));
-        assert_eq!(found.doubts.iter().any(is_told), of_run);
+            .any(|of| matches!(of, Warning::Doubtful(doubt) if is_of_width(doubt)));
+        assert_eq!(found.doubts.iter().any(is_of_width), of_run);
         of_run
     };
     let slot = |width: f64| Defect::new(Surface::OuterRace, -FRAC_PI_2, 2e-3, width, 0.3e-3);
-    assert!(told(slot(0.178e-3)) && !told(slot(0.5e-3)));
-    assert!(!told(Defect::pit(Surface::OuterRace, -FRAC_PI_2, 0.178e-3)));
+    assert!(is_doubted(slot(0.178e-3)) && !is_doubted(slot(0.5e-3)));
+    assert!(!is_doubted(Defect::pit(
+        Surface::OuterRace,
+        -FRAC_PI_2,
+        0.178e-3
+    )));
 }
 
 /// Truth: the doubts of statics over a turn of the cage are the scene's own, wherever the turn starts.

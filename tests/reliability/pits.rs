@@ -129,11 +129,11 @@ fn more_than_four_pits_at_once_are_refused() {
     }
     // A ball's pits count all, wherever they lie on it.
     for (on_race, on_ball) in [(5, 0), (3, 2), (0, 5)] {
-        let told = compiled(on_race, close, on_ball).unwrap_err();
-        println!("{told}");
+        let message = compiled(on_race, close, on_ball).unwrap_err();
+        println!("{message}");
         assert!(
-            told.starts_with("defects: 5 pits that a contact of row 0"),
-            "{told}"
+            message.starts_with("defects: 5 pits that a contact of row 0"),
+            "{message}"
         );
     }
 }
@@ -141,12 +141,12 @@ fn more_than_four_pits_at_once_are_refused() {
 /// Model section 15.1: a circle wholly in its contact loses (4/3)(c³/E*) p²/δ whatever the load, 3.49 N for 0.178 mm on the outer race of a
 /// 6205; the fields belong together.
 #[test]
-fn an_explanation_tells_what_a_pit_takes() {
+fn an_explanation_has_what_a_pit_takes() {
     let mut scene = presets::deep_groove_6205(500.0, 0.0, 1797.0);
     let seeded = pit(Surface::OuterRace, -FRAC_PI_2, 0.178e-3);
     scene.defects.insert("seeded".to_owned(), seeded);
-    let told = explain(&scene).unwrap();
-    let of = &told.pits[0];
+    let explanation = explain(&scene).unwrap();
+    let of = &explanation.pits[0];
     println!("{of}");
     assert!((of.lost / 3.49 - 1.0).abs() < 0.01, "{of:?}");
     // F = K δ^{3/2}: so much less approach takes as much.
@@ -160,10 +160,11 @@ fn an_explanation_tells_what_a_pit_takes() {
     let speed = (of.size[0] + of.contact[0]) / of.duration;
     assert!((speed / 1.76 - 1.0).abs() < 0.02, "{speed}");
     assert!(
-        told.to_string()
+        explanation
+            .to_string()
             .contains("seeded: pit on the outer race, 0.178 mm: under ")
     );
-    assert!(told.to_string().contains("takes 3.5 N of it"));
+    assert!(explanation.to_string().contains("takes 3.5 N of it"));
     scene.defects.clear();
     assert!(explain(&scene).unwrap().pits.is_empty());
 }

@@ -88,7 +88,7 @@ fn contacts_are_read_from_a_state() {
 }
 
 #[test]
-fn statics_and_costs_are_told() {
+fn statics_and_costs_are_public() {
     let scene = bearing();
     let found = equilibrium(&scene).unwrap();
     assert_eq!(found.balls.len(), 8);
@@ -134,8 +134,8 @@ fn results_are_serialised() {
     let model = compile(&bearing()).unwrap();
     let y = start(&model, &Start::Equilibrium).unwrap();
     let energy = inspect::energy(&model, &y);
-    let said = serde_json::to_value(energy).unwrap();
-    assert_eq!(said["contact"], energy.contact);
+    let written = serde_json::to_value(energy).unwrap();
+    assert_eq!(written["contact"], energy.contact);
     // The ball on top bears nothing.
     let free = inspect::contact(&model, &y, 2, Race::Inner);
     assert_eq!(free.load, 0.0);

@@ -68,8 +68,8 @@ fn tables() -> Vec<(&'static str, Change)> {
         (&[1.0, 0.0], &[1.0, 2.0]),
         (&[0.0, f64::NAN], &[1.0, 2.0]),
     ] {
-        let said = table(times, values);
-        let load = said.clone();
+        let function = table(times, values);
+        let load = function.clone();
         cases.push((
             "loads.p.force",
             Box::new(move |scene| {
@@ -79,7 +79,7 @@ fn tables() -> Vec<(&'static str, Change)> {
         ));
         cases.push((
             "drive.speed",
-            Box::new(move |scene| scene.drive = Drive::Speed(said.clone())),
+            Box::new(move |scene| scene.drive = Drive::Speed(function.clone())),
         ));
         let [places, forces] = [times, values].map(<[f64]>::to_vec);
         cases.push((

@@ -82,7 +82,7 @@ fn carried(scene: &Scene, duration: f64) -> usize {
             column.name
         );
     }
-    // Some of these scenes are meant to be odd; that is told of the scene.
+    // Some of these scenes are meant to be odd; those doubts are the scene's.
     let inaccurate = |warning: &Warning| warning.category() == "accuracy";
     assert!(
         !out.warnings().iter().any(inaccurate),

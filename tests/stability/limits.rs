@@ -364,7 +364,7 @@ fn the_default_is_right_or_says_that_it_is_not() {
 
 /// Failure: a looser tolerance that costs more. With slip speed 0.001 m/s, rtol 1e-5 chatters across the friction's
 /// kink and pays more than 1e-6, which resolves it. Truth: counted evaluations, error against rtol 1e-10.
-/// Instead: the warning's residual tells which of the two to believe.
+/// Instead: the warning's residual shows which of the two to believe.
 #[test]
 fn a_looser_tolerance_can_cost_more() {
     let truth = impact(PAIR, 0.001, 0.2, true, 1e-10);

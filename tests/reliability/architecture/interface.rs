@@ -55,7 +55,7 @@ fn line(text: &str) -> String {
 }
 
 /// What an item shows, where it is one of the exported names or an implementation for one.
-fn told(item: &str, exported: &BTreeSet<String>) -> Vec<String> {
+fn lines_of(item: &str, exported: &BTreeSet<String>) -> Vec<String> {
     let named = KINDS.iter().find_map(|kind| public_name(item, kind));
     if let Some(name) = named.filter(|name| exported.contains(*name)) {
         let head = line(item.split(['{', ';']).next().unwrap_or(""));
@@ -92,7 +92,7 @@ fn interface(sources: &[Source]) -> BTreeSet<String> {
         .filter(|(path, _)| !tests.contains(path) && !path.starts_with("python/"));
     crate_itself
         .flat_map(|(_, text)| items(&code(text)))
-        .flat_map(|item| told(&item, &exported))
+        .flat_map(|item| lines_of(&item, &exported))
         .collect()
 }
 

@@ -209,7 +209,7 @@ fn violations_are_seen() {
         let sources = sources.map(|(path, text)| (path.to_owned(), text.to_owned()));
         violations(&sources, &["low", "high"]).0
     };
-    for (planted, told) in [
+    for (planted, expected) in [
         ("use crate::high::Thing;", "low/mod.rs uses high of high"),
         (
             "use crate::{low::deep, high};",
@@ -226,7 +226,7 @@ fn violations_are_seen() {
             "low/mod.rs has an inherent impl of Thing, which is not its own",
         ),
     ] {
-        assert_eq!(look(planted), [told], "{planted}");
+        assert_eq!(look(planted), [expected], "{planted}");
     }
     for allowed in [
         "// crate::high",

@@ -49,7 +49,7 @@ fn bearing() -> Scene {
 }
 
 /// Reasons of this program; `ballrace::Error` may have more than are named here.
-fn told(error: &ballrace::Error) -> String {
+fn reason(error: &ballrace::Error) -> String {
     match error {
         ballrace::Error::Scene { path, allowed, .. } => format!("{path} must be {allowed}"),
         ballrace::Error::Integration { time, .. } => format!("stopped at {time} s"),
@@ -115,7 +115,7 @@ fn ask_all() -> Result<(), Box<dyn Error>> {
     for (name, scene) in scenes() {
         match simulate(&scene, &run) {
             Ok(out) => println!("{name}: {} on {}", out.stats.nfev, out.provenance.simd),
-            Err(error) => return Err(format!("{name}: {}", told(&error)).into()),
+            Err(error) => return Err(format!("{name}: {}", reason(&error)).into()),
         }
     }
     let scene = presets::deep_groove_6205(1000.0, 300.0, 1800.0);
@@ -173,7 +173,7 @@ fn use_all() -> Result<(), Box<dyn Error>> {
     };
     match simulate_with_progress(&presets::wheel_bearing(3000.0), &run, &mut watch) {
         Ok(out) => println!("{} samples", out.get("outer.ay").map_or(0, <[f64]>::len)),
-        Err(error) => println!("{}", told(&error)),
+        Err(error) => println!("{}", reason(&error)),
     }
 
     let cases =

@@ -181,7 +181,7 @@ fn pool() -> &'static BTreeMap<String, Vec<Value>> {
     })
 }
 
-/// An end of what is allowed, or what is next to it, as the crate tells it of what is far beyond.
+/// An end of what is allowed, or what is next to it, as the crate reports it of what is far beyond.
 fn bound(u: &mut Unstructured<'_>, document: &Value, place: &Place) -> Result<Value> {
     let far = if u.arbitrary()? { 1e300 } else { -1e300 };
     let mut bounds = Vec::new();
@@ -212,15 +212,15 @@ fn number(text: &str) -> Option<f64> {
 
 /// A name that the crate offers in that place.
 fn offered(u: &mut Unstructured<'_>, document: &Value, place: &Place) -> Result<Value> {
-    let told = refusal(document, place, json!("?"));
-    let names: Vec<&str> = told.split('"').skip(1).step_by(2).collect();
+    let allowed = refusal(document, place, json!("?"));
+    let names: Vec<&str> = allowed.split('"').skip(1).step_by(2).collect();
     match names.is_empty() {
         true => Ok(json!("?")),
         false => Ok(json!(u.choose(&names)?)),
     }
 }
 
-/// What is allowed in a place, as told where it has another value.
+/// What is allowed in a place, as reported where it has another value.
 fn refusal(document: &Value, place: &Place, value: Value) -> String {
     let mut document = document.clone();
     if let Some(there) = document.pointer_mut(&place.pointer) {

@@ -19,7 +19,7 @@ const ARGUMENTS: [&str; 6] = ["scene", "run", "columns", "skip", "band", "contac
 
 /// What a call gives, if it gives anything; an error must say what it is to say.
 pub fn decided<T>(outcome: Result<T>) -> Option<T> {
-    outcome.inspect_err(told).ok()
+    outcome.inspect_err(check_message).ok()
 }
 
 /// As [`decided`], of a call whose documents have no names of their own but known ones: an error of a field names one.
@@ -39,7 +39,7 @@ pub fn of_a_scene<T>(outcome: Result<T>) -> Option<T> {
 }
 
 /// Checks that an error says something, and where.
-fn told(error: &Error) {
+fn check_message(error: &Error) {
     let text = error.to_string();
     assert!(!text.trim().is_empty());
     match error {
@@ -62,7 +62,7 @@ fn told(error: &Error) {
     }
 }
 
-/// First names of what an error may speak of.
+/// First names of what an error may name.
 fn known() -> &'static BTreeSet<String> {
     static KNOWN: OnceLock<BTreeSet<String>> = OnceLock::new();
     KNOWN.get_or_init(|| {

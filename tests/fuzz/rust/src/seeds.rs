@@ -189,7 +189,7 @@ fn dictionary() -> String {
         .collect()
 }
 
-/// What the crate tells may stand in a place, where it is asked for what it does not know.
+/// The names that the crate allows in a place, by its message about one that it does not know.
 fn offered(base: &Base, place: &Place) -> Vec<String> {
     let is_text = base
         .document
@@ -199,13 +199,13 @@ fn offered(base: &Base, place: &Place) -> Vec<String> {
         return Vec::new();
     }
     let unknown = [json!("?"), json!({"?": 1})];
-    let told = unknown.map(|value| match base.scene.with(&[(&place.path, value)]) {
+    let allowed = unknown.map(|value| match base.scene.with(&[(&place.path, value)]) {
         Err(Error::Scene { allowed, .. }) => allowed,
         _ => String::new(),
     });
-    let names = told
+    let names = allowed
         .iter()
-        .flat_map(|told| told.split('"').skip(1).step_by(2));
+        .flat_map(|text| text.split('"').skip(1).step_by(2));
     names.map(str::to_owned).collect()
 }
 

@@ -78,15 +78,15 @@ fn starts() -> [Value; 8] {
     starts
 }
 
-/// Names of the methods, as the crate tells them, and none.
+/// Names of the methods, as the crate's message lists them, and none.
 fn methods() -> &'static [Option<String>] {
     static METHODS: std::sync::OnceLock<Vec<Option<String>>> = std::sync::OnceLock::new();
     METHODS.get_or_init(|| {
-        let told = match Run::from_json(r#"{"method": "?"}"#) {
+        let allowed = match Run::from_json(r#"{"method": "?"}"#) {
             Err(Error::Scene { allowed, .. }) => allowed,
             other => panic!("{other:?}"),
         };
-        let names = told.split('`').skip(3).step_by(2);
+        let names = allowed.split('`').skip(3).step_by(2);
         let names = names.map(|name| Some(name.to_owned()));
         std::iter::once(None).chain(names).collect()
     })
@@ -102,21 +102,21 @@ impl Short {
             return;
         };
         let outcome = simulate(&scene, &run);
-        self.tells_what_was_given(&outcome);
+        self.names_what_was_given(&outcome);
         if let Some(out) = of_a_scene(outcome) {
             finite(&out);
         }
     }
 
     /// Checks that a number of the run that is refused is the one that was given.
-    fn tells_what_was_given(&self, outcome: &ballrace::Result<Signals>) {
+    fn names_what_was_given(&self, outcome: &ballrace::Result<Signals>) {
         let Err(Error::Scene { path, value, .. }) = outcome else {
             return;
         };
         if let Some(given) = self.run.get(path).and_then(Value::as_f64) {
-            let told = value.parse::<f64>().ok();
+            let refused = value.parse::<f64>().ok();
             assert!(
-                told.is_some_and(|told| (told - given).abs() <= 1e-12 * given.abs()),
+                refused.is_some_and(|refused| (refused - given).abs() <= 1e-12 * given.abs()),
                 "{outcome:?}"
             );
         }

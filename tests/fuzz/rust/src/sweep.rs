@@ -102,7 +102,7 @@ fn rows(sweep: &Map<String, Value>) -> Vec<Vec<(&str, Value)>> {
     rows
 }
 
-/// The values of a column: a list, or the ends of one that is told by them.
+/// The values of a column: a list, or the ends of one that is given by them.
 fn values_of(column: &Value) -> Vec<Value> {
     match column {
         Value::Array(values) => values.clone(),
