@@ -4,7 +4,7 @@
 
 It runs the tests that hold each number (`cargo test`, `pytest`), reads the lines they print, runs
 `ballrace.paper`, and draws the pictures. The page is never edited by hand. `--verdicts` makes the section on
-verdicts alone anew, which takes half an hour, most of it for simulated records; `--set` only what is told there of
+verdicts alone anew, which takes half an hour, most of it for simulated records; `--set` only what stands there of
 the set of simulated records, from what `python benches/verdict_set.py` has judged.
 """
 
@@ -172,7 +172,7 @@ def transfer() -> str:
         if line.startswith("| ")
     }
     shown, accused = cells["the whole recipe"][3], cells["the whole recipe"][-1]
-    told = [
+    rows = [
         ("balanced accuracy by record, of those that show lines", shown, "0.90 and more",
          float(shown.split()[0]) >= 0.9),
         ("windows of healthy records accused", accused, "5 % and less", float(accused.split()[0]) <= 5.0),
@@ -180,10 +180,10 @@ def transfer() -> str:
     for part in ("healthy", "inner race", "outer race"):
         area = cells[part][1]
         case = f"area under the curve, simulated from measured without the path, {part}"
-        told.append((case, area, "0.9 and less", float(area) <= 0.9))
+        rows.append((case, area, "0.9 and less", float(area) <= 0.9))
     rows_ = "".join(
         f"| {case} | {found} | {aim} | {'yes' if reached else 'no'} |\n"
-        for case, found, aim, reached in told
+        for case, found, aim, reached in rows
     )
     return f"{TRANSFER}\n| figure | found | aim | reached |\n|---|---|---|---|\n{rows_}"
 
@@ -232,14 +232,14 @@ def with_verdicts(page: str) -> str:
 
 
 def with_set(page: str) -> str:
-    """Return a page with what is told of the set of simulated records made anew, from what was judged."""
+    """Return a page with what it says of the set of simulated records made anew, from what was judged."""
     program = judged_set()
     draw_verdicts()
     begin, end = page.index("## Verdicts\n"), page.index("## Deviations, explained\n")
     lines = [f"| {' | '.join(row)} |\n" for row in VERDICT_ROW.findall(page[begin:end])]
     kept = [line for line in lines if not line.startswith("| set, ")]
-    told = [f"| {' | '.join(row)} |\n" for row in program.summary(program.read(program.TABLE))]
-    return f"{page[:begin]}## Verdicts\n\n{section([*kept, *told])}\n{page[end:]}"
+    judged = [f"| {' | '.join(row)} |\n" for row in program.summary(program.read(program.TABLE))]
+    return f"{page[:begin]}## Verdicts\n\n{section([*kept, *judged])}\n{page[end:]}"
 
 
 def main() -> None:

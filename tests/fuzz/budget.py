@@ -46,7 +46,7 @@ def fuzzed(
 ) -> Callable[[Callable[..., object]], Callable[[], None]]:
     """Make a test of a check: it looks at examples until the time is up, and shrinks the first that fails.
 
-    What a check returns is counted, and told where pytest shows what tests print (``-rP``).
+    What a check returns is counted, and printed where pytest shows what tests print (``-rP``).
     """
 
     def decorate(check: Callable[..., object]) -> Callable[[], None]:
@@ -123,7 +123,7 @@ def decided(call: Callable[[], T]) -> T | br.BallraceError:
         try:
             return call()
         except br.BallraceError as error:
-            _tells(error)
+            _check_message(error)
             return error
         except BaseException as error:
             # Panics of the core are no Exception, and the shrinker does not know them.
@@ -132,7 +132,7 @@ def decided(call: Callable[[], T]) -> T | br.BallraceError:
             raise
 
 
-def _tells(error: br.BallraceError) -> None:
+def _check_message(error: br.BallraceError) -> None:
     """Check that an error says something, and where."""
     assert str(error).strip(), type(error)
     if isinstance(error, br.SceneError):
@@ -140,10 +140,10 @@ def _tells(error: br.BallraceError) -> None:
         assert error.allowed, f"nothing is allowed: {error!r}"
 
 
-_SAID = {*(field.name for field in dataclasses.fields(Scene)), *ARGUMENTS, "scene"}
+_NAMED = {*(field.name for field in dataclasses.fields(Scene)), *ARGUMENTS, "scene"}
 
 
 def of_a_scene(outcome: object) -> None:
     """Check that what is refused of a scene is a field of it, or an argument of its run."""
     if isinstance(outcome, br.SceneError):
-        assert outcome.path.split(".")[0].split("[")[0] in _SAID, f"no field: {outcome!r}"
+        assert outcome.path.split(".")[0].split("[")[0] in _NAMED, f"no field: {outcome!r}"

@@ -90,13 +90,13 @@ def _uff(path: Path) -> list[bytes]:
     for binary in (0, 1):
         path.unlink()
         data = {"x": T, "data": X, "num_pts": X.size, "abscissa_inc": 1e-3, "abscissa_spacing": 1}
-        told = {"id1": "ay", "id5": "NONE", "ordinate_axis_units_lab": "g", "binary": binary}
+        labels = {"id1": "ay", "id5": "NONE", "ordinate_axis_units_lab": "g", "binary": binary}
         axes = {"type": 58, "func_type": 1, "rsp_node": 1, "rsp_dir": 1, "ref_node": 1, "ref_dir": 1,
                 "abscissa_spec_data_type": 17, "ordinate_spec_data_type": 12,
                 "orddenom_spec_data_type": 0, "z_axis_spec_data_type": 0}  # fmt: skip
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", ResourceWarning)  # it leaves closing to Python
-            pyuff.UFF(str(path)).write_sets([axes | data | told], mode="add")
+            pyuff.UFF(str(path)).write_sets([axes | data | labels], mode="add")
         found.append(path.read_bytes())
     return found
 

@@ -147,8 +147,8 @@ def evaluated(level: str, document: object, y: NDArray[np.float64]) -> NDArray[n
         return None
     line = cast("IO[str]", child.stdout).readline()
     if not line:
-        told = cast("IO[str]", child.stderr).read()
-        assert "BALLRACE_SIMD" in told, told
+        printed = cast("IO[str]", child.stderr).read()
+        assert "BALLRACE_SIMD" in printed, printed
         return None
     return np.array(json.loads(line))
 

@@ -58,7 +58,7 @@ def record_is_decided(end: str, data: bytes) -> str:
 
         found = decided(lambda: read(None))
         if isinstance(found, br.SceneError) and found.path == "fs":
-            found = decided(lambda: read(1000.0))  # it does not tell its own
+            found = decided(lambda: read(1000.0))  # the file has none
         if isinstance(found, br.FileError):
             assert found.path == str(path), found
             return "ended" if "ended the process" in found.reason else "refused"

@@ -126,8 +126,8 @@ def explained(document: object) -> str:
     scene = read(document)
     if not isinstance(scene, Scene):
         return "refused"
-    told = decided(lambda: br.explain(scene))
-    of_a_scene(told)
+    explanation = decided(lambda: br.explain(scene))
+    of_a_scene(explanation)
     model = decided(lambda: br.Model(scene))
     if isinstance(model, br.Model):
         start = decided(lambda: model.start("rolling"))
@@ -137,7 +137,7 @@ def explained(document: object) -> str:
             with np.errstate(all="ignore"):
                 forces = model.forces(0.0, start)
             assert all(np.isfinite(force).all() for force in forces.values())
-    return type(told).__name__
+    return type(explanation).__name__
 
 
 @fuzzed(document=scenes(most=2))

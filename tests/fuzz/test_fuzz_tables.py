@@ -177,7 +177,7 @@ def test_the_corpus(path: Path) -> None:
     ),
     cut=st.booleans(),
 )  # fmt: skip
-def test_any_damaged_folder_is_mended_or_told(
+def test_any_damaged_folder_is_mended_or_reported(
     damage: list[tuple[int, float, bytes]], cut: bool
 ) -> str:
     """Files of a finished campaign with bytes overwritten or cut: it is never read as something else."""

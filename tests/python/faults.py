@@ -47,8 +47,8 @@ class _File:
         self._file.__enter__()
         return self
 
-    def __exit__(self, *told: object) -> Any:
-        return self._file.__exit__(*told)
+    def __exit__(self, *exception: object) -> Any:
+        return self._file.__exit__(*exception)
 
 
 def _counted(call: Callable[..., Any], name: str, faults: Faults) -> Callable[..., Any]:

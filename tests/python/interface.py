@@ -67,8 +67,8 @@ def columns() -> dict[str, list[str]]:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", br.SceneWarning)  # no ball comes to the spall
         out = br.simulate(scene.replace({"probes": probes}), duration=1e-3, start="rolling")
-    told = {f"column {name}": [unit] for name, unit in out.units.items()}
-    return told | {
+    found = {f"column {name}": [unit] for name, unit in out.units.items()}
+    return found | {
         f"feature {name}": [] for name in br.features(out["ring.ay"], out.fs, scene=scene)
     }
 

@@ -26,12 +26,12 @@ def notices() -> str:
     by_text = defaultdict(list)
     for crate in compiled_in():
         by_text[licence(crate)].append(f"{crate['name']} {crate['version']} ({crate['license']})")
-    parts = [f"{RULE}\n" + "\n".join(names) + f"\n\n{told}" for told, names in by_text.items()]
+    parts = [f"{RULE}\n" + "\n".join(names) + f"\n\n{text}" for text, names in by_text.items()]
     return "\n".join([HEAD, *parts])
 
 
 def compiled_in() -> list[dict[str, Any]]:
-    """What cargo tells of the crates of other people that end up in the extension, on any platform."""
+    """What cargo lists of the crates of other people that end up in the extension, on any platform."""
     tree = ("tree", "--package=ballrace-python", "--edges=normal,no-proc-macro", "--target=all")
     lines = cargo(*tree, "--prefix=none", "--no-dedupe", "--format={p}").splitlines()
     wanted = {tuple(line.split()[:2]) for line in lines if line}

@@ -315,7 +315,7 @@ class Body:
 
 
 @dataclass(frozen=True)
-class Lean:
+class TangentialShare:
     """Tangential force of a wavy race over the radial one (section 4), and where it acts."""
 
     share: complex
@@ -338,7 +338,7 @@ class Surface:
     centre: complex | None  # of the circle
     radius: float  # of the circle
     centre_rate: complex  # d centre / dz
-    lean: Lean
+    tangential: TangentialShare
 
 
 @dataclass(frozen=True)
@@ -350,7 +350,7 @@ class Feature:
     normal: complex
     point: complex
     tan_alpha: float
-    lean: Lean
+    tangential: TangentialShare
 
 
 @dataclass(frozen=True)
@@ -574,11 +574,11 @@ class Contact:
         s = self.sigma * (self.d - radius) + self.rho(zeta)
         return np.array([s, -self.sigma * self.groove.torus_slope(z), -zeta / self.rho(zeta)])
 
-    def race_lean(self, from_ring: complex, point: complex) -> Lean:
+    def race_tangential(self, from_ring: complex, point: complex) -> TangentialShare:
         """σ R'(φ)/d along ẑ × n, for what stands so far from the ring's centre."""
         d = abs(from_ring)
         slope = self.groove.waviness_slope(self.ring_angle(from_ring))
-        return Lean(self.sigma * slope / d * 1j * from_ring / d, point)
+        return TangentialShare(self.sigma * slope / d * 1j * from_ring / d, point)
 
     # -- arcs (section 7)
 
@@ -645,15 +645,19 @@ class Contact:
         angle = self.ring_angle(self.n)
         n_e = self.sigma * self.n
         p = self.ring.centre + self.groove.radius(z, angle) * self.n
-        lean = self.race_lean(self.d * self.n, self.ball.centre)
+        tangential = self.race_tangential(self.d * self.n, self.ball.centre)
         gap = self.gap(self.ring_arcs(zeta), angle, self.groove.torus(z))
         if gap is None:
-            return [Surface("race", [(1.0, np.zeros(3))], s_race, n_e, p, None, 0.0, 0.0, lean)]
+            return [
+                Surface("race", [(1.0, np.zeros(3))], s_race, n_e, p, None, 0.0, 0.0, tangential)
+            ]
         edges = [self.ring_circle(zeta, mark) for mark in gap.ends]
         drops = [s_race - s for s, *_ in edges]
         # The race keeps law(s₁₂), s₁₂ = s_race − drop₁ − drop₂; edge j carries law(s_j) − law(s₁₂).
         both = drops[0] + drops[1]
-        found = [Surface("race_in_defect", [(1.0, both)], s_race, n_e, p, None, 0.0, 0.0, lean)]
+        found = [
+            Surface("race_in_defect", [(1.0, both)], s_race, n_e, p, None, 0.0, 0.0, tangential)
+        ]
         for circle, drop, mark in zip(edges, drops, gap.ends, strict=True):
             terms = [(1.0, drop), (-1.0, both)]
             found.append(self.circle_surface("edge", terms, circle, mark.radius))
@@ -688,7 +692,7 @@ class Contact:
         s, centre, centre_rate = circle
         line = centre - self.ball.centre
         n_e = line / abs(line)
-        p, none = centre - radius * n_e, Lean(0.0, self.ball.centre)
+        p, none = centre - radius * n_e, TangentialShare(0.0, self.ball.centre)
         return Surface(kind, terms, s, n_e, p, centre, radius, centre_rate, none)
 
     # -- what the ball with its defects meets (section 7, ball defects)
@@ -700,7 +704,7 @@ class Contact:
         for x in self.surfaces(zeta):
             gap = self.gap(arcs, self.ball_angle(x.normal), self.rho(zeta)) if arcs else None
             if gap is None:
-                found.append(Feature(x.kind, x.terms, x.normal, x.point, smooth_tan, x.lean))
+                found.append(Feature(x.kind, x.terms, x.normal, x.point, smooth_tan, x.tangential))
                 continue
             # As the ring's edges against the race, so the ball's edges against the surface X.
             edges = [self.ball_circle(zeta, mark, x) for mark in gap.ends]
@@ -708,21 +712,21 @@ class Contact:
             both = drops[0] + drops[1]
             terms = [(sign, drop + both) for sign, drop in x.terms]
             kind = f"{x.kind}+in_ball_defect"
-            found.append(Feature(kind, terms, x.normal, x.point, smooth_tan, x.lean))
-            for (_, n_e, p, tan, lean), own in zip(edges, drops, strict=True):
+            found.append(Feature(kind, terms, x.normal, x.point, smooth_tan, x.tangential))
+            for (_, n_e, p, tan, tangential), own in zip(edges, drops, strict=True):
                 terms = [(sign, drop + own) for sign, drop in x.terms]
                 terms += [(-sign, drop + both) for sign, drop in x.terms]
-                found.append(Feature(f"{x.kind}+ball_edge", terms, n_e, p, tan, lean))
+                found.append(Feature(f"{x.kind}+ball_edge", terms, n_e, p, tan, tangential))
             for mark in gap.floor:  # bare sum
-                s, n_e, p, tan, lean = self.ball_circle(zeta, mark, x)
+                s, n_e, p, tan, tangential = self.ball_circle(zeta, mark, x)
                 terms = [(sign, drop + (x.s - s)) for sign, drop in x.terms]
-                found.append(Feature(f"{x.kind}+ball_floor", terms, n_e, p, tan, lean))
+                found.append(Feature(f"{x.kind}+ball_floor", terms, n_e, p, tan, tangential))
         return found
 
     def ball_circle(
         self, zeta: float, mark: Mark, x: Surface
-    ) -> tuple[Vector, complex, complex, float, Lean]:
-        """Penetration, normal, contact point, tan α and lean of a circle of the ball on a surface."""
+    ) -> tuple[Vector, complex, complex, float, TangentialShare]:
+        """Penetration, normal, contact point, tan α and tangential share of a circle of the ball on a surface."""
         rho, u = self.rho(zeta), unit(mark.angle + self.ball.theta)
         arm = rho - mark.radius - mark.depth
         centre = self.ball.centre + arm * u
@@ -732,17 +736,17 @@ class Contact:
             radius = self.groove.radius(self.ring_z(zeta), self.ring_angle(out))
             s = self.sigma * (abs(line) - radius) + mark.radius
             n_e, p = self.sigma * out, self.ring.centre + radius * out
-            by_z, lean = x.s[1], self.race_lean(line, centre)
+            by_z, tangential = x.s[1], self.race_tangential(line, centre)
         else:
             line = x.centre - centre
             s = x.radius + mark.radius - abs(line)
             n_e = line / abs(line)
             p = x.centre - x.radius * n_e
-            by_z, lean = -dot(n_e, x.centre_rate), x.lean
+            by_z, tangential = -dot(n_e, x.centre_rate), x.tangential
         # tan α = −∂s/∂ζ: the gap's own gradient.
         centre_rate = -zeta / rho * u + arm * mark.angle_rate * 1j * u
-        tan = dot(lean.share - n_e, centre_rate)
-        return np.array([s, by_z, -tan]), n_e, p, tan, lean
+        tan = dot(tangential.share - n_e, centre_rate)
+        return np.array([s, by_z, -tan]), n_e, p, tan, tangential
 
     # -- forces (sections 4 and 5)
 
@@ -832,8 +836,8 @@ class Contact:
         (by_e, by_z), sizes = self.by_place, self.parts_of_place
         if not sizes.any():
             return
-        lean = self.race_lean(self.d * self.n, self.ball.centre)
-        force = -by_e * self.sigma * self.n + by_e * lean.share
+        tangential = self.race_tangential(self.d * self.n, self.ball.centre)
+        force = -by_e * self.sigma * self.n + by_e * tangential.share
         size = math.hypot(*sizes) / max(math.hypot(by_e, by_z), 1e-300)
         self.model.add_pair(self.ball, self.ring, self.ball.centre, force, -by_z, parts=size)
 
@@ -853,7 +857,12 @@ class Contact:
             self.tilt(part, feature)
         radial = E * (1.0 if self.hertz is None else self.direction[0])
         model.add_pair(
-            ball, ring, feature.lean.point, radial * feature.lean.share, 0.0, parts=gross / E
+            ball,
+            ring,
+            feature.tangential.point,
+            radial * feature.tangential.share,
+            0.0,
+            parts=gross / E,
         )
         n_e, p = feature.normal, feature.point
         # Relative velocity at p (section 5).

@@ -25,14 +25,14 @@ SOURCE = re.compile(r"<!-- source -->\n.*?<!-- package\n(.*?)-->\n", re.DOTALL)
 def obstacles(tag: str, root: Path = ROOT) -> list[str]:
     """What keeps a tag from being published, in sentences."""
     version = manifest(root)["version"]
-    told = disagreements(root) + placeholders(root)
+    found = disagreements(root) + placeholders(root)
     if tag != f"v{version}":
-        told.append(f"the tag is {tag}, Cargo.toml has version {version}")
+        found.append(f"the tag is {tag}, Cargo.toml has version {version}")
     if not re.search(
         rf"^## {re.escape(version)}, \d{{4}}-\d\d-\d\d$", _changes(root), re.MULTILINE
     ):
-        told.append(f"CHANGELOG.md: no heading '## {version}, YEAR-MONTH-DAY'")
-    return told
+        found.append(f"CHANGELOG.md: no heading '## {version}, YEAR-MONTH-DAY'")
+    return found
 
 
 def placeholders(root: Path = ROOT) -> list[str]:
@@ -46,7 +46,7 @@ def placeholders(root: Path = ROOT) -> list[str]:
 
 
 def disagreements(root: Path = ROOT) -> list[str]:
-    """Files that tell another version than Cargo.toml."""
+    """Files that have another version than Cargo.toml."""
     version = manifest(root)["version"]
     lock = tomllib.loads(text(root, "Cargo.lock"))["package"]
     found = {
@@ -58,9 +58,9 @@ def disagreements(root: Path = ROOT) -> list[str]:
         "CHANGELOG.md": re.findall(r"^## (\d[^\s,]*)", _changes(root), re.MULTILINE)[:1],
     }
     return [
-        f"{name} tells version {', '.join(told) or 'none'}, Cargo.toml {version}"
-        for name, told in found.items()
-        if told != [version]
+        f"{name} has version {', '.join(versions) or 'none'}, Cargo.toml {version}"
+        for name, versions in found.items()
+        if versions != [version]
     ]
 
 

@@ -37,8 +37,8 @@ def test_impacts_keep_their_size_and_rate(approximations: Approximations, states
         for wanted in (Approximations(), approximations)
     ]
     assert runs[1].provenance.states == states
-    told = {o["what"] for o in runs[1].provenance.left_out if "by request" in o["reason"]}
-    assert "orbit and spin of balls" in told
+    omitted = {o["what"] for o in runs[1].provenance.left_out if "by request" in o["reason"]}
+    assert "orbit and spin of balls" in omitted
     rms, rates = [], []
     passing = br.frequencies.of_row(scene.rows[0]).bpfo * 30.0
     for out in runs:

@@ -93,11 +93,11 @@ def test_an_import_loads_what_describes_a_scene() -> None:
         "import sys, ballrace;"
         "print(*(name.split('.')[1] for name in sys.modules if name.startswith('ballrace.')))"
     )
-    told = subprocess.run(
+    done = subprocess.run(
         [sys.executable, "-c", program], capture_output=True, text=True, check=True
     )
     scenes = {"defects", "errors", "frequencies", "presets", "scene"}
-    loaded = {name for name in told.stdout.split() if not name.startswith("_")}
+    loaded = {name for name in done.stdout.split() if not name.startswith("_")}
     assert loaded == scenes
 
 

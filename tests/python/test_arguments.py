@@ -121,7 +121,7 @@ def test_windows_of_a_campaign_want_chains(tmp_path: Path) -> None:
         assert caught.value.path == "length"
 
 
-def test_a_description_that_is_no_text_is_told(tmp_path: Path) -> None:
+def test_a_description_that_is_no_text_is_refused(tmp_path: Path) -> None:
     (tmp_path / "campaign.json").write_bytes(b"\x80\x81")
     with pytest.raises(br.CampaignError, match="damaged, not the description of a campaign"):
         br.Campaign.open(tmp_path)

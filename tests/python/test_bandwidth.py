@@ -99,7 +99,7 @@ def test_effort_and_readings_do_not_change(spalled: br.Scene, fs: float) -> None
     )
     out = br.simulate(scene, duration=2e-3, fs=fs, threads=1)
     points = br.simulate(scene, duration=2e-3, fs=fs, threads=1, bandwidth=None)
-    # A filtered record hears less of what accelerations differ by from the rates of velocities.
+    # A filtered record has less of what accelerations differ by from the rates of velocities.
     own = {"wall_time", "nfev_past_end", "acceleration_residual"}
     assert 0.0 < out.stats.acceleration_residual < points.stats.acceleration_residual
     assert {k: v for k, v in out.stats.items() if k not in own} == {
@@ -112,10 +112,10 @@ def test_effort_and_readings_do_not_change(spalled: br.Scene, fs: float) -> None
         assert same != column.startswith("outer."), column
 
 
-def test_provenance_tells(spalled: br.Scene) -> None:
-    """Analytic: the band up to which signals are told, and the points read a sample; none without a filter."""
+def test_provenance_has_the_band(spalled: br.Scene) -> None:
+    """Analytic: the band up to which signals are faithful, and the points read a sample; none without a filter."""
 
-    def told(fs: float, bandwidth: Any) -> tuple[float | None, int]:
+    def band_of(fs: float, bandwidth: Any) -> tuple[float | None, int]:
         out = br.simulate(spalled, duration=1e-3, fs=fs, threads=1, bandwidth=bandwidth)
         return out.provenance.bandwidth, out.provenance.oversampling
 
@@ -123,11 +123,11 @@ def test_provenance_tells(spalled: br.Scene) -> None:
     # Dormand–Prince's cap is one over the highest contact frequency.
     highest = br.simulate(spalled, duration=1e-3, method="dormand-prince")
     rate = 1.0 / highest.provenance.max_step
-    assert told(FS, "auto") == (0.4 * FS, int(np.ceil(rate / FS)))
-    assert told(FS, None) == (None, 1)
-    assert told(1e6, "auto") == (0.5e6, 1)
+    assert band_of(FS, "auto") == (0.4 * FS, int(np.ceil(rate / FS)))
+    assert band_of(FS, None) == (None, 1)
+    assert band_of(1e6, "auto") == (0.5e6, 1)
     with pytest.raises(br.SceneError, match="bandwidth"):
-        told(FS, "wide")
+        band_of(FS, "wide")
 
 
 def test_the_last_samples_are_those_of_a_longer_run(spalled: br.Scene) -> None:
@@ -155,7 +155,7 @@ def test_threads_give_the_same_bits() -> None:
     assert all(np.array_equal(one[column], two[column]) for column in one)
 
 
-def test_an_unheard_defect_is_told() -> None:
+def test_a_defect_above_the_band_is_reported() -> None:
     """Analytic: the line of the wheel bearing's spall is at 157 Hz; of a ball it is twice its spin."""
     scene = br.presets.wheel_bearing()
     line = br.frequencies.of_row(scene.rows[0]).at(30.0).bpfo
@@ -174,7 +174,7 @@ def test_a_slow_rate_has_its_limit(spalled: br.Scene) -> None:
         br.simulate(spalled, duration=2.0, fs=1.0)
 
 
-def test_campaigns_filter_unless_told(spalled: br.Scene, tmp_path: Path) -> None:
+def test_campaigns_filter_unless_asked_not_to(spalled: br.Scene, tmp_path: Path) -> None:
     """Analytic: features are those of the filtered signal; a case may ask for point samples."""
     cases = {"bandwidth": [None, "none"]}
     done = br.campaign(

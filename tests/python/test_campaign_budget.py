@@ -1,4 +1,4 @@
-"""What a case may cost, what a table tells of the rows to trust, and Ctrl-C while cases do not hear it."""
+"""What a case may cost, what a table says of the rows to trust, and Ctrl-C while cases do not notice it."""
 
 from __future__ import annotations
 
@@ -197,11 +197,11 @@ def test_the_contacts_of_a_failure_survive(tmp_path: Path, wheel: br.Scene) -> N
 def test_ctrl_c_while_results_are_written_loses_none(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Polars has a handler of its own: the write that follows a Ctrl-C may be told of it, too."""
+    """Polars has a handler of its own: the write that follows a Ctrl-C may be stopped by it, too."""
     write = Store.write
     interrupted: list[str] = []
 
-    def tell_twice(self: Store, folder: str, frame: pl.DataFrame) -> str:
+    def raise_twice(self: Store, folder: str, frame: pl.DataFrame) -> str:
         if len(interrupted) < 2:
             interrupted.append(folder)
             raise KeyboardInterrupt
@@ -211,7 +211,7 @@ def test_ctrl_c_while_results_are_written_loses_none(
         if self._rows:
             self.flush()
 
-    monkeypatch.setattr(Store, "write", tell_twice)
+    monkeypatch.setattr(Store, "write", raise_twice)
     monkeypatch.setattr(Writer, "flush_when_due", due)
     with pytest.raises(KeyboardInterrupt, match="interrupted; 1 of 2 cases are safe"):
         run(
@@ -227,11 +227,11 @@ import sys
 sys.path.insert(0, {here!r})
 import sweeps
 
-def tell(progress):
+def on_progress(progress):
     print(progress.done, flush=True)
 
 cases = [{{"duration": 1e-4}}] + [{{"duration": 1e3, "fs": 1.0 + i}} for i in range(2)]
-sweeps.run(cases, {out!r}, progress=tell, start="rolling", bandwidth=None)
+sweeps.run(cases, {out!r}, progress=on_progress, start="rolling", bandwidth=None)
 """
 
 
@@ -248,8 +248,8 @@ def test_ctrl_c_keeps_what_has_finished(tmp_path: Path) -> None:
             pass
         time.sleep(1.0)
         child.send_signal(signal.SIGINT)
-        told = child.stderr.read()
-    assert "KeyboardInterrupt: interrupted; 1 of 3 cases are safe" in told
+        printed = child.stderr.read()
+    assert "KeyboardInterrupt: interrupted; 1 of 3 cases are safe" in printed
     assert br.Campaign.open(tmp_path / "runs").manifest["status"].to_list() == [
         "ok",
         "missing",

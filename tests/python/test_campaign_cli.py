@@ -43,9 +43,9 @@ def test_from_a_file_to_a_table(sweep: Path, capsys: pytest.CaptureFixture[str])
     assert main(["campaign", str(sweep), "-o", str(out), "--shard", "0/2", "--threads", "1"]) == 0
     assert "12 cases: 3 ok, 3 failed, 6 missing" in capsys.readouterr().out
     assert main(["campaign", "--status", str(out)]) == 0
-    told = capsys.readouterr().out
-    assert "12 cases: 3 ok, 3 failed, 6 missing" in told
-    assert "3 × SceneError, the first: rtol = 1: 1e-12 to 1e-1, or absent" in told
+    printed = capsys.readouterr().out
+    assert "12 cases: 3 ok, 3 failed, 6 missing" in printed
+    assert "3 × SceneError, the first: rtol = 1: 1e-12 to 1e-1, or absent" in printed
 
     assert main(["campaign", str(sweep), "-o", str(out), "--shard", "1/2"]) == 0
     manifest = br.Campaign.open(out).manifest

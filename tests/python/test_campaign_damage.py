@@ -1,4 +1,4 @@
-"""Damaged, crafted and contended folders: found out, told, and mended by calling again."""
+"""Damaged, crafted and contended folders: found out, reported, and mended by calling again."""
 
 from __future__ import annotations
 
@@ -179,7 +179,7 @@ def test_a_crafted_folder_opens_no_other_file(tmp_path: Path, name: str) -> None
         None,
     ],
 )
-def test_crafted_results_are_told(tmp_path: Path, frame: pl.DataFrame | None) -> None:
+def test_crafted_results_are_reported(tmp_path: Path, frame: pl.DataFrame | None) -> None:
     """The hash is right, the rows are none."""
     done = run(table(2), tmp_path)
     if frame is None:

@@ -182,14 +182,14 @@ with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("fork")) as p
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no fork")
-def test_a_forked_child_is_told_not_to(tmp_path: Path) -> None:
+def test_a_forked_child_is_refused(tmp_path: Path) -> None:
     program = FORKED.format(here=str(Path(__file__).parent), out=str(tmp_path / "runs"))
     command = [sys.executable, "-W", "ignore", "-c", program]
-    told = subprocess.run(command, capture_output=True, text=True, timeout=60, check=True).stdout
-    assert "this process was forked" in told
-    assert 'get_context("spawn")' in told
-    assert "4 of 9 cases are safe" in told
-    assert told.endswith("\n50000.0\n")
+    printed = subprocess.run(command, capture_output=True, text=True, timeout=60, check=True).stdout
+    assert "this process was forked" in printed
+    assert 'get_context("spawn")' in printed
+    assert "4 of 9 cases are safe" in printed
+    assert printed.endswith("\n50000.0\n")
 
 
 def test_errors_of_workers_are_typed(tmp_path: Path) -> None:

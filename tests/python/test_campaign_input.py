@@ -155,10 +155,10 @@ import pandas as pd, sweeps
 cases = pd.DataFrame({{"label": ["a", None], "start": ["rolling", None], "loads.radial.force": [300.0, 400.0]}})
 print(sweeps.run(cases, {str(tmp_path / "runs")!r}).manifest["label"].to_list())
 """
-    told = subprocess.run(
+    done = subprocess.run(
         [sys.executable, "-c", program], capture_output=True, text=True, check=False
     )
-    assert told.stdout == "['a', None]\n", told.stderr
+    assert done.stdout == "['a', None]\n", done.stderr
     with pytest.raises(br.SceneError, match="two columns 'label'"):
         run(pd.DataFrame([[1, 2]], columns=["label", "label"]), tmp_path / "twice")
 

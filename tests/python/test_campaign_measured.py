@@ -66,7 +66,7 @@ def test_windows_are_cut_from_the_measurement(done: br.Campaign) -> None:
     assert np.array_equal(row["x"], np.float32(first.x[64:128]))
 
 
-def test_what_clips_is_told_once_and_in_the_manifest(done: br.Campaign) -> None:
+def test_what_clips_is_reported_once_and_in_the_manifest(done: br.Campaign) -> None:
     """Limit: a range of a tenth of what the signal reaches clips, one that fits it does not."""
     again = br.Campaign.open(done.folder)
     assert again.manifest["measured_clipped"].to_list() == [None] * again.manifest.height
@@ -76,9 +76,9 @@ def test_what_clips_is_told_once_and_in_the_manifest(done: br.Campaign) -> None:
     assert (again.manifest["measured_clipped"] == 0.0).all()
     small = m.Logger(range=0.1 * float(fitting["range"].min()), bits=16)  # type: ignore[arg-type]
     chains = {"fits": m.Chain(logger=m.Logger(bits=16)), "clips": m.Chain(logger=small)}
-    with pytest.warns(br.AccuracyWarning, match="2 of 4 measurements") as told:
+    with pytest.warns(br.AccuracyWarning, match="2 of 4 measurements") as warned:
         table = again.windows(chains, 64)
-    assert len(told) == 1
+    assert len(warned) == 1
     assert set(table.filter(chain="clips")["range"]) == {small.range}
     clipped = again.manifest["measured_clipped"]
     assert (clipped > 1e-3).all()
@@ -102,8 +102,8 @@ def test_windows_leave_out_the_ring_up_and_know_their_labels(done: br.Campaign) 
     own = done.windows(chain, 100, labels=["loads.radial.force", "wall_time"])
     assert own.columns[-2:] == ["loads.radial.force", "wall_time"]
     assert own["loads.radial.force"].unique().sort().to_list() == [800.0, 1200.0]
-    for labels, told in ((["start"], "windows have one"), (["no such"], "columns of the manifest")):
-        with pytest.raises(br.SceneError, match=told):
+    for labels, text in ((["start"], "windows have one"), (["no such"], "columns of the manifest")):
+        with pytest.raises(br.SceneError, match=text):
             done.windows(chain, 100, labels=labels)
     for skip in (-1.0, 0.02):
         with pytest.raises(br.SceneError, match="skip"):

@@ -20,7 +20,7 @@ from ballrace.campaigns import work
 work._OFTEN = 0.02
 peaks = []
 
-def tell(progress):
+def report(progress):
     # Linux counts in KiB, others in bytes.
     unit = 1024.0 if sys.platform == "linux" else 1024.0**2
     peaks.append(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / unit)
@@ -29,7 +29,7 @@ def tell(progress):
 
 first = []
 sweeps.run(
-    sweeps.table({count}), {out!r}, duration=2e-4, start="rolling", keep="signals", fs={fs}, progress=tell
+    sweeps.table({count}), {out!r}, duration=2e-4, start="rolling", keep="signals", fs={fs}, progress=report
 )
 print(first[0], peaks[-1])
 """
@@ -48,6 +48,6 @@ def test_memory_does_not_grow_with_cases(count: int, fs: float, tmp_path: Path) 
         here=str(Path(__file__).parent), out=str(tmp_path / "runs"), count=count, fs=fs
     )
     command = [sys.executable, "-c", program]
-    told = subprocess.run(command, capture_output=True, text=True, timeout=900, check=True).stdout
-    fifth, last = map(float, told.split())
+    text = subprocess.run(command, capture_output=True, text=True, timeout=900, check=True).stdout
+    fifth, last = map(float, text.split())
     assert last - fifth < 8.0, f"from {fifth} to {last} MiB"

@@ -1,4 +1,4 @@
-"""Killed, interrupted, damaged, full, taken: nothing that has finished is lost, and each is told clearly."""
+"""Killed, interrupted, damaged, full, taken: nothing that has finished is lost, and each is reported clearly."""
 
 from __future__ import annotations
 
@@ -33,10 +33,10 @@ import sys, time
 sys.path.insert(0, {here!r})
 import sweeps
 
-def tell(progress):
+def on_progress(progress):
     print(progress.done, time.time(), flush=True)
 
-sweeps.run(sweeps.table({count}), {out!r}, duration={duration}, progress=tell, keep={keep!r})
+sweeps.run(sweeps.table({count}), {out!r}, duration={duration}, progress=on_progress, keep={keep!r})
 """
 
 
@@ -99,11 +99,11 @@ def test_ctrl_c_stops_and_says_how_to_resume(tmp_path: Path) -> None:
         read_until(child.stdout, 10)
         child.send_signal(signal.SIGINT)
         assert child.stderr is not None
-        told = child.stderr.read()
+        printed = child.stderr.read()
     safe = re.search(
-        r"KeyboardInterrupt: interrupted; (\d+) of 1000 cases are safe in .*; call again", told
+        r"KeyboardInterrupt: interrupted; (\d+) of 1000 cases are safe in .*; call again", printed
     )
-    assert safe, told
+    assert safe, printed
     count = (
         br.Campaign.open(tmp_path / "runs").manifest.filter(pl.col("status") != "missing").height
     )
@@ -127,11 +127,11 @@ try:
 except br.CampaignError as error:
     print(error)
 """
-    told = subprocess.run(
+    printed = subprocess.run(
         [sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=True
     ).stdout
     assert re.search(
-        r"cannot write to .*: File too large; 5 of 40 cases are safe in .*; call again", told
+        r"cannot write to .*: File too large; 5 of 40 cases are safe in .*; call again", printed
     )
     assert finished(tmp_path) == before == 4
     assert not list((tmp_path / "tmp").iterdir())
@@ -139,7 +139,7 @@ except br.CampaignError as error:
     assert same(done, run(table(40), tmp_path.with_name("whole"), keep="signals"))
 
 
-def test_no_space_left_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_no_space_left_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     run(table(5), tmp_path)
 
     def full(file: int) -> None:
@@ -178,7 +178,9 @@ def test_a_read_only_folder(tmp_path: Path) -> None:
     assert finished(tmp_path / "runs") == 2
 
 
-def test_a_read_only_file_system_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_read_only_file_system_is_reported(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     run(table(3), tmp_path)
 
     def refuse(path: Path, *arguments: object, **options: object) -> None:

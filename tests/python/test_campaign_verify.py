@@ -52,7 +52,7 @@ def called_again(folder: Path, **options: Any) -> tuple[br.Campaign, int]:
 def test_a_flipped_bit_of_a_description_never_gives_another_scene(
     whole: br.Campaign, folder: Path
 ) -> None:
-    """Each byte of one copy: it is told and mended from the other one, and nothing runs again."""
+    """Each byte of one copy: it is reported and mended from the other one, and nothing runs again."""
     path = folder / "campaign.json"
     text = path.read_bytes()
     scenes = whole._store.identity["scenes"]
@@ -87,7 +87,7 @@ def test_results_outlive_the_description(whole: br.Campaign, folder: Path, how: 
 
 
 def test_features_by_other_options_are_not_readmitted(folder: Path) -> None:
-    """The ids of cases do not tell them."""
+    """They do not change the ids of cases."""
     for name in NAMES:
         (folder / name).unlink()
     with pytest.warns(br.CampaignWarning, match="keep their ids"):
@@ -109,7 +109,7 @@ def test_a_folder_of_an_older_version_is_taken_and_sealed(whole: br.Campaign, fo
 
 @pytest.mark.parametrize("share", [0.02, 0.5, 0.98])
 def test_verifying_reads_every_file(folder: Path, share: float) -> None:
-    """A flipped bit anywhere in any file is told, of that file alone."""
+    """A flipped bit anywhere in any file is reported, of that file alone."""
     files = [p for p in folder.rglob("*") if p.is_file() and p.parent.name not in ("locks", "tmp")]
     assert len(files) == br.Campaign.open(folder).verify().height
     for path in files:
@@ -129,9 +129,9 @@ def test_the_command_verifies(folder: Path, capsys: pytest.CaptureFixture[str]) 
     assert "all 6 files are what was written" in capsys.readouterr().out
     flip(folder / "manifest.parquet", 0.5)
     assert main(["campaign", str(folder), "--verify"]) == 1
-    told = capsys.readouterr()
-    assert "manifest.parquet: damaged" in told.out
-    assert "1 of 6 files are not what was written" in told.err
+    printed = capsys.readouterr()
+    assert "manifest.parquet: damaged" in printed.out
+    assert "1 of 6 files are not what was written" in printed.err
 
 
 def test_anyone_can_check_the_manifest(whole: br.Campaign) -> None:
@@ -176,21 +176,21 @@ def test_what_cannot_be_read_is_left_and_never_computed_again(
 ) -> None:
     """Every call that reads a file of the folder fails once; afterwards all is there, and nothing runs."""
     before = {p: p.read_bytes() for p in folder.rglob("*") if p.is_file()}
-    told: list[str] = []
+    messages: list[str] = []
     for fail_at in range(1, 200):
         with failing(fail_at, READING, number, within=str(folder)) as faults:
             try:
                 _, ran = called_again(folder)
             except (br.CampaignError, OSError) as error:
-                told.append(str(error))
+                messages.append(str(error))
             else:
                 assert ran == 0
         if faults.calls < fail_at:
             break
     else:
         pytest.fail("there is no end to it")
-    assert len(told) > 5
-    assert all(os.strerror(number) in text for text in told)
+    assert len(messages) > 5
+    assert all(os.strerror(number) in text for text in messages)
     assert not list(folder.rglob("*.damaged"))
     unchanged = {p: p.read_bytes() for p in before if p.parent.name in ("results", "signals")}
     assert unchanged.items() <= before.items()
@@ -203,14 +203,14 @@ def test_any_failure_of_writing_loses_nothing_that_was_finished(
     whole: br.Campaign, tmp_path: Path
 ) -> None:
     """Every call that writes fails once, from an empty folder on; called again, the campaign is whole."""
-    told: list[str] = []
+    messages: list[str] = []
     for fail_at in range(1, 400):
         folder = tmp_path / str(fail_at)
         with failing(fail_at, WRITING, errno.ENOSPC, within=str(folder)) as faults:
             try:
                 called_again(folder)
             except (br.CampaignError, OSError) as error:
-                told.append(str(error))
+                messages.append(str(error))
         if faults.calls < fail_at:
             break
         finished = 0
@@ -221,8 +221,8 @@ def test_any_failure_of_writing_loses_nothing_that_was_finished(
         assert ran == 4 - finished
     else:
         pytest.fail("there is no end to it")
-    assert len(told) > 10
-    assert all(os.strerror(errno.ENOSPC) in text for text in told)
+    assert len(messages) > 10
+    assert all(os.strerror(errno.ENOSPC) in text for text in messages)
 
 
 def test_the_scene_of_a_case_is_that_of_the_description(whole: br.Campaign) -> None:
@@ -230,7 +230,7 @@ def test_the_scene_of_a_case_is_that_of_the_description(whole: br.Campaign) -> N
     assert whole.scene(case_id).rows == SCENE.rows
 
 
-def test_other_vector_instructions_are_told(folder: Path) -> None:
+def test_other_vector_instructions_are_reported(folder: Path) -> None:
     """A campaign that goes on on another machine mixes last bits."""
     (shard,) = (folder / "results").iterdir()
     rows = pl.read_parquet(shard).filter(pl.col("status") == "ok").head(1)

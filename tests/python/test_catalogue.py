@@ -1,6 +1,6 @@
 """The catalogue against load ratings and geometry, and scenes of its bearings.
 
-The ratings are formulas of the balls (D, Z, pitch diameter, contact angle), so printed ones tell of them: ISO 76,
+The ratings are formulas of the balls (D, Z, pitch diameter, contact angle), so printed ones test them: ISO 76,
 ``C₀ = f₀ Z D² cos α`` with f₀ as printed, else from Hertz's pressure of 4.2 GPa on grooves of 0.52 and 0.53, here
 computed by the slow reference; ISO 281, ``C = 1.3 f_c (i cos α)^0.7 Z^(2/3) D^1.8`` in mm, with the table of f_c.
 """
@@ -98,7 +98,7 @@ def dynamic(row: br.Bearing) -> float:
 
 
 def test_balls_have_the_printed_ratings() -> None:
-    """Literature: within 2.2 and 1.5 %, printed in steps of up to 0.9 %; three rows are told as rough.
+    """Literature: within 2.2 and 1.5 %, printed in steps of up to 0.9 %; three rows are listed as rough.
 
     f_c of thrust bearings is for other grooves than NSK's by 0.7 %.
     """
@@ -115,8 +115,8 @@ def test_ratings_of_the_package_are_those_formulas() -> None:
     for row in (row for row in ROWS if row.kind != "thrust"):
         numbers = (row.ball_count, row.ball_diameter, row.pitch_diameter, row.contact_angle)
         assert dynamic_rating(*numbers, row.row_count) == pytest.approx(dynamic(row), rel=1e-9)
-        told = static_rating(*numbers, row.row_count)
-        assert told == pytest.approx(static(replace(row, f0=None)), rel=8e-3)
+        rating = static_rating(*numbers, row.row_count)
+        assert rating == pytest.approx(static(replace(row, f0=None)), rel=8e-3)
 
 
 def misfit(row: br.Bearing, balls: int, ball: float) -> float:
@@ -151,7 +151,7 @@ def misfit(row: br.Bearing, balls: int, ball: float) -> float:
     ],
 )
 def test_no_other_standard_set_fits_as_well(name: str) -> None:
-    """So the ratings do tell of the balls."""
+    """So the ratings do depend on the balls."""
     row = br.catalogue[name]
     nearest = min(BALLS, key=lambda ball: abs(ball - row.ball_diameter))
     sets = {
@@ -164,7 +164,7 @@ def test_no_other_standard_set_fits_as_well(name: str) -> None:
     assert min(sets, key=sets.__getitem__) == (row.ball_count, nearest)
 
 
-def test_printed_factors_tell_of_the_diameters() -> None:
+def test_printed_factors_follow_from_the_diameters() -> None:
     """Literature: f₀ is a function of D cos α/d_m, and the balls were found by C₀/f₀ and C alone.
 
     NSK's f₀ of the series 618 is that of narrower grooves, up to 17.4 where ISO 76 ends at 16.5.
@@ -181,7 +181,7 @@ def test_printed_factors_tell_of_the_diameters() -> None:
 
 
 def test_one_ball_more_or_less_has_not() -> None:
-    """So the ratings do tell of the balls: with the next standard diameter either rating is off."""
+    """So the ratings do depend on the balls: with the next standard diameter either rating is off."""
     row = br.catalogue["6308"]
     gamma = row.ball_diameter / row.pitch_diameter
     assert abs(f0(gamma) * 7 * (1e3 * row.ball_diameter) ** 2 / row.static_rating - 1.0) > 0.1
@@ -379,7 +379,7 @@ def test_a_housing_of_its_own_is_the_ring_of_the_scene() -> None:
     assert (ring.mass, ring.support.z) == (3.0, br.scene.Spring(stiffness=2e8, damping=0.0))
 
 
-def test_load_decides_whether_damage_is_heard() -> None:
+def test_load_decides_whether_damage_is_detected() -> None:
     """Limit: no ball carries load over a spall at the top; balls strike a bare ring, but a housing is heavy."""
 
     def rms(angle: float, housing: Literal["pedestal"] | None) -> float:
@@ -468,7 +468,7 @@ SPALL = br.defects.spall(on="inner_race", width_mm=1.0)
 
 
 @pytest.mark.parametrize(
-    ("arguments", "field", "told"),
+    ("arguments", "field", "message"),
     [
         ({"defects": [SPALL, SPALL]}, "defects", r"several by their names, \{\"first\""),
         ({"defects": "inner_race"}, "defects", r"br\.defects\.spall\(on=\"inner_race\""),
@@ -482,9 +482,9 @@ SPALL = br.defects.spall(on="inner_race", width_mm=1.0)
     ],
 )
 def test_what_people_write_is_refused_with_what_they_meant(
-    arguments: dict[str, object], field: str, told: str
+    arguments: dict[str, object], field: str, message: str
 ) -> None:
-    with pytest.raises(br.SceneError, match=told) as refused:
+    with pytest.raises(br.SceneError, match=message) as refused:
         br.bearing("6205", **arguments)  # type: ignore[arg-type]
     assert refused.value.path == field
     with pytest.raises(br.SceneError, match="first argument"):

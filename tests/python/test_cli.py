@@ -105,14 +105,14 @@ def test_scene_prints_a_bearing_of_the_catalogue(capsys: pytest.CaptureFixture[s
     printed = br.Scene.from_toml(capsys.readouterr().out)
     assert printed == br.bearing("6309", radial_load=3000.0, speed_rpm=1470.0, clearance="C3")
     assert "near are" in refused(capsys, "scene", "620")
-    told = refused(capsys, "scene", "wheel-bearing", "--rpm", "100")
-    assert "speed_rpm = 100: absent beside wheel-bearing" in told
+    message = refused(capsys, "scene", "wheel-bearing", "--rpm", "100")
+    assert "speed_rpm = 100: absent beside wheel-bearing" in message
     scenes = {"pedestal": br.bearing("6309"), "none": br.bearing("6309", housing=None)}
     for housing, scene in scenes.items():
         assert main(["scene", "6309", "--housing", housing]) == 0
         assert br.Scene.from_toml(capsys.readouterr().out) == scene
-    told = refused(capsys, "scene", "wheel-bearing", "--housing", "pedestal")
-    assert "housing = pedestal: absent beside wheel-bearing" in told
+    message = refused(capsys, "scene", "wheel-bearing", "--housing", "pedestal")
+    assert "housing = pedestal: absent beside wheel-bearing" in message
 
 
 def test_scene_prints_a_preset(capsys: pytest.CaptureFixture[str]) -> None:
@@ -239,8 +239,8 @@ def test_devices_and_pipes_are_not_replaced(
         targets.append(null)
     kinds = [stat.S_IFMT(path.stat().st_mode) for path in targets]
     for path in targets:
-        told = refused(capsys, "run", str(scene_file), "-o", str(path))
-        assert "is a device or a pipe, not a file" in told
+        message = refused(capsys, "run", str(scene_file), "-o", str(path))
+        assert "is a device or a pipe, not a file" in message
         with pytest.raises(OSError, match="is a device or a pipe"):
             out.write_parquet(path)
     assert [stat.S_IFMT(path.stat().st_mode) for path in targets] == kinds
@@ -286,9 +286,9 @@ def test_frequencies(capsys: pytest.CaptureFixture[str]) -> None:
     wanted = br.fault_frequencies("6205", 1797.0)
     assert float(lines["BPFO"]) == pytest.approx(wanted.bpfo, abs=5e-5)
     assert main(["frequencies", "6205", "--json"]) == 0
-    told = json.loads(capsys.readouterr().out)
-    assert told["BPFI"] == pytest.approx(wanted.orders.bpfi)
-    assert told["unit"] == "per turn"
+    found = json.loads(capsys.readouterr().out)
+    assert found["BPFI"] == pytest.approx(wanted.orders.bpfi)
+    assert found["unit"] == "per turn"
     assert "6205" in refused(capsys, "frequencies", "62055")
     assert "speed_rpm" in refused(capsys, "frequencies", "6205", "--rpm", "0")
 
@@ -324,7 +324,7 @@ def test_doctor(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 @pytest.mark.parametrize(
-    ("processor", "compatible", "told"),
+    ("processor", "compatible", "reported"),
     [
         (("x86_64", ["baseline"]), False, True),
         (("AMD64", ["baseline"]), False, True),
@@ -333,12 +333,12 @@ def test_doctor(capsys: pytest.CaptureFixture[str]) -> None:
         (("arm64", ["baseline"]), False, False),
     ],
 )
-def test_doctor_tells_that_polars_needs_rtcompat(
+def test_doctor_reports_that_polars_needs_rtcompat(
     capsys: pytest.CaptureFixture[str],
     monkeypatch: pytest.MonkeyPatch,
     processor: tuple[str, list[str]],
     compatible: bool,
-    told: bool,
+    reported: bool,
 ) -> None:
     """Truth: the usual build of polars wants AVX2 on x86-64; its module `_polars_runtime_compat` does not."""
     machine, sets = processor
@@ -352,8 +352,8 @@ def test_doctor_tells_that_polars_needs_rtcompat(
     monkeypatch.setattr(_core, "instruction_sets", lambda: sets)
     monkeypatch.setattr(platform, "machine", lambda: machine)
     monkeypatch.setattr(importlib.util, "find_spec", find_spec)
-    assert main(["doctor"]) == int(told)
-    assert ("polars[rtcompat]" in capsys.readouterr().out) == told
+    assert main(["doctor"]) == int(reported)
+    assert ("polars[rtcompat]" in capsys.readouterr().out) == reported
 
 
 def test_report_of_a_file_and_a_folder(
@@ -454,7 +454,7 @@ def test_explain_draws_the_scene(
 
 
 def test_diagnose(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
-    """A verdict from a file, with a page; what cannot be told of it is refused in one line."""
+    """A verdict from a file, with a page; what cannot be found of it is refused in one line."""
     rng = np.random.default_rng(1)
     rate = br.catalogue["6205"].orders.bpfo * 30.0
     x = 0.3 * rng.normal(size=24_000)
@@ -465,9 +465,9 @@ def test_diagnose(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     )
     known = ["diagnose", "record.csv", "--bearing", "6205"]
     assert main([*known, "--rpm", "1800", "--channel", "DE", "-o", "page.html"]) == 0
-    told = capsys.readouterr().out
-    assert told.startswith("6205: damaged, outer race\n")
-    assert "give unit=" in told
+    printed = capsys.readouterr().out
+    assert printed.startswith("6205: damaged, outer race\n")
+    assert "give unit=" in printed
     assert (tmp_path / "page.html").is_file()
     exact = ["--speed-within", "0.001"]
     assert main([*known, "--rpm", "1800", *exact, "--exclude", "1.7", "--mains", "50"]) == 0
@@ -485,7 +485,7 @@ def test_a_missing_library_is_one_line(
 ) -> None:
     monkeypatch.setitem(sys.modules, "marimo", None)
     assert main(["explore", "--no-browser"]) == 1
-    told = capsys.readouterr().err
-    assert told.startswith("ballrace: ballrace explore needs marimo"), told
-    assert told.count("\n") == 1
-    assert told.endswith('pip install "ballrace[app]"\n')
+    message = capsys.readouterr().err
+    assert message.startswith("ballrace: ballrace explore needs marimo"), message
+    assert message.count("\n") == 1
+    assert message.endswith('pip install "ballrace[app]"\n')

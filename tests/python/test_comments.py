@@ -1,4 +1,4 @@
-"""Scenes written for people: every field tells its meaning and unit, and the text still is the scene."""
+"""Scenes written for people: every field has its meaning and unit, and the text still is the scene."""
 
 from __future__ import annotations
 
@@ -77,8 +77,8 @@ def test_every_number_has_its_unit() -> None:
     """A ratio has the unit 1, and a value in time that of the field."""
     found = list(numbers(schema(), "scene"))
     assert len(found) > 80
-    for path, told in found:
-        assert re.search(r"\[[^\]]+\]", told), (path, told)
+    for path, comment in found:
+        assert re.search(r"\[[^\]]+\]", comment), (path, comment)
 
 
 def test_the_command_writes_comments(capsys: pytest.CaptureFixture[str]) -> None:

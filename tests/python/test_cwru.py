@@ -142,7 +142,7 @@ def test_the_records_have_the_published_lines(race: Race) -> None:
 
 
 def test_the_healthy_record_is_at_48_khz() -> None:
-    """Truth: the motor turned as fast as in the others, and the mains have 60 Hz; the file tells no rate."""
+    """Truth: the motor turned as fast as in the others, and the mains have 60 Hz; the file has no rate."""
     x = record("97")
     assert spectra.comb(x, 48_000.0, 29.93, 0.2, orders=(1, 2, 3))[0] == pytest.approx(
         29.93, rel=1e-3
@@ -175,11 +175,11 @@ def test_thrust_fitted_on_one_record_predicts_the_other() -> None:
 
 def test_both_records_say_one_contact_angle() -> None:
     gamma = 7.94 / 39.04
-    told = [
+    rates = [
         math.degrees(math.acos((2.0 * measured_order("inner") / 9.0 - 1.0) / gamma)),
         math.degrees(math.acos((1.0 - 2.0 * measured_order("outer") / 9.0) / gamma)),
     ]
-    assert told == pytest.approx([9.5, 9.5], abs=1.0)
+    assert rates == pytest.approx([9.5, 9.5], abs=1.0)
 
 
 @pytest.mark.long

@@ -56,11 +56,11 @@ def written(done: br.Campaign, tmp_path_factory: pytest.TempPathFactory) -> Path
 
 def test_labels_are_those_of_defects_that_were_met(done: br.Campaign, written: Path) -> None:
     table = br.read_bearing_dataset(written).metadata
-    told = {row["bearing_id"]: row for row in table.to_dicts()}
-    assert [told[k]["fault_type"] for k in "ABCD"] == ["normal", "outer", "outer", "normal"]
-    assert [told[k]["fault_size_mm"] for k in "ABCD"] == [0.0, 1.0, 1.5, 0.0]
-    assert [told[k]["fault_severity_level"] for k in "ABCD"] == [0, 1, 2, 0]
-    assert told["D"]["native_label"] == "outer_race 1 mm"
+    labels = {row["bearing_id"]: row for row in table.to_dicts()}
+    assert [labels[k]["fault_type"] for k in "ABCD"] == ["normal", "outer", "outer", "normal"]
+    assert [labels[k]["fault_size_mm"] for k in "ABCD"] == [0.0, 1.0, 1.5, 0.0]
+    assert [labels[k]["fault_severity_level"] for k in "ABCD"] == [0, 1, 2, 0]
+    assert labels["D"]["native_label"] == "outer_race 1 mm"
     assert done.manifest["fault_outer_race"].to_list() == [False, True, True, False]
 
 
@@ -87,14 +87,14 @@ def test_samples_are_those_of_the_campaign(done: br.Campaign, written: Path) -> 
         assert row["sensor_mounting"] == ("pedestal" if housed else "outer_ring")
 
 
-def test_the_card_tells_scenes_and_licence(done: br.Campaign, written: Path) -> None:
+def test_the_card_has_scenes_and_licence(done: br.Campaign, written: Path) -> None:
     import hashlib
 
     card = json.loads((written / "manifest.json").read_text(encoding="utf-8"))
     assert card["license"] == "CC-BY-4.0"
     assert list(card["scenes"]) == done.manifest["case_id"].to_list()
-    for case_id, told in card["scenes"].items():
-        assert told == hashlib.sha256(done.scene(case_id).to_json().encode()).hexdigest()
+    for case_id, digest in card["scenes"].items():
+        assert digest == hashlib.sha256(done.scene(case_id).to_json().encode()).hexdigest()
     assert set(card["columns"]) == set(br.read_bearing_dataset(written).metadata.columns)
 
 

@@ -92,7 +92,7 @@ class Run:
     envelope: NDArray[np.float64]
 
     @property
-    def told(self) -> str:
+    def title(self) -> str:
         """What it is, in a few words."""
         scene = self.out.scene
         return f"{scene.name}, {', '.join(sorted(scene.defects)) or 'healthy'}"
@@ -203,7 +203,7 @@ def check_lines(found: Run, lines: Iterable[tuple[float, float]], over: float = 
     """Check lines, each given by its kinematic order and by the balls' measured rates [Hz]."""
     for order, measured in lines:
         f, level = found.line(measured)
-        meets(f"{found.told}: line at order {order:.3f}, Hz", order * SHAFT, f, 3e-3)
+        meets(f"{found.title}: line at order {order:.3f}, Hz", order * SHAFT, f, 3e-3)
         assert f == pytest.approx(measured, rel=3e-3)
         assert level > over
 
@@ -238,7 +238,7 @@ def check_family(
     f, value = spectra.comb(
         found.envelope, FS, measured, 0.015 * measured, orders=multiples, offset=offset
     )
-    meets(f"{found.told}: family of order {order:.3f}, Hz", order * SHAFT, f, 3e-3)
+    meets(f"{found.title}: family of order {order:.3f}, Hz", order * SHAFT, f, 3e-3)
     assert f == pytest.approx(measured, rel=3e-3)
     table = spectra.spectrum(found.envelope, FS)
     for k, height in zip(multiples, value, strict=True):
@@ -313,10 +313,10 @@ def test_two_defects_for_longer(bearing: str) -> None:
 
 
 @pytest.mark.long
-def test_the_healthy_row_hears_the_other() -> None:
+def test_the_healthy_row_carries_the_lines_of_the_other() -> None:
     """Cross-talk: the loads of the row without a defect carry the lines of the row with one."""
 
-    def heard(found: Run, f: float) -> tuple[float, NDArray[np.float64]]:
+    def line_of(found: Run, f: float) -> tuple[float, NDArray[np.float64]]:
         out = found.out
         load = sum(out[f"other.ball{b}.outer.load"] for b in range(13))
         assert not isinstance(load, int)
@@ -325,9 +325,9 @@ def test_the_healthy_row_hears_the_other() -> None:
 
     hurt, healthy = run("wheel outer", 0.5), run("wheel", 0.5)
     bpfo = 13.0 * hurt.orbit
-    f, value = heard(hurt, bpfo)
+    f, value = line_of(hurt, bpfo)
     meets("wheel bearing: BPFO in the loads of the healthy row, Hz", bpfo, f, 1e-3)
-    assert (value > 100.0 * heard(healthy, bpfo)[1]).all()
+    assert (value > 100.0 * line_of(healthy, bpfo)[1]).all()
 
 
 # Passages, sample by sample
@@ -343,7 +343,7 @@ def passages(on: Surface, width: float, probes: dict[str, Any]) -> br.Signals:
 def entry_to_exit(out: br.Signals, width: float) -> list[float]:
     """Return the times from entry to exit of all loaded passages [s].
 
-    On a race the contact forces of a ball are radial. From entry to exit they lean on an edge, most in
+    On a race the contact forces of a ball are radial. From entry to exit they incline to an edge, most in
     the middle: the ball is first pushed forward, then held back.
     """
     defect = out.scene.defects["spall"]
@@ -355,7 +355,7 @@ def entry_to_exit(out: br.Signals, width: float) -> list[float]:
         phi = np.arctan2(out[f"ball{b}.y"], out[f"ball{b}.x"])
         ring = out["inner.theta"] if race == "inner" else 0.0
         place = np.angle(np.exp(1j * (phi - ring - defect.angle))) * 0.5 * row.pitch_diameter
-        leaning = (
+        tangential = (
             np.cos(phi) * out[f"force{b}.contact.y"] - np.sin(phi) * out[f"force{b}.contact.x"]
         )
         near = np.flatnonzero(np.abs(place) < 1.3 * width)
@@ -365,7 +365,7 @@ def entry_to_exit(out: br.Signals, width: float) -> list[float]:
             load = float(np.median(out[f"row.ball{b}.{race}.load"][part[: part.size // 8]]))
             if load < 150.0:
                 continue
-            inside = np.flatnonzero(np.abs(leaning[part]) > 0.05 * load * most)
+            inside = np.flatnonzero(np.abs(tangential[part]) > 0.05 * load * most)
             found.append(float(out.t[part[inside[-1]]] - out.t[part[inside[0]]]))
     return found
 

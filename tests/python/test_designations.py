@@ -1,4 +1,4 @@
-"""Names as they stand on boxes: what they mean, what of them is told, and what is refused."""
+"""Names as they stand on boxes: what they mean, what of them is doubted, and what is refused."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ def test_marks_are_a_table_of_meanings() -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "told"),
+    ("name", "message"),
     [
         ("6205-2RS/QQ7", "QQ7: not known, and ignored; taken as 6205"),
         ("6205DDUC3X9", "X9: not known"),
@@ -82,9 +82,9 @@ def test_marks_are_a_table_of_meanings() -> None:
         ("SKF 6305-2Z", "SKF prints other ratings than the maker of these 8 balls of 10.319 mm"),
     ],
 )
-def test_what_may_be_another_bearing_is_told_and_taken(name: str, told: str) -> None:
+def test_what_may_be_another_bearing_is_doubted_and_taken(name: str, message: str) -> None:
     """Literature of the last: SKF prints C₀ 11.6 kN of a 6305, NSK 11.2."""
-    with pytest.warns(br.SceneWarning, match=told):
+    with pytest.warns(br.SceneWarning, match=message):
         assert br.bearing(name).name in ("6205", "6305")
     with warnings.catch_warnings():
         warnings.simplefilter("error")
@@ -93,7 +93,7 @@ def test_what_may_be_another_bearing_is_told_and_taken(name: str, told: str) -> 
 
 
 @pytest.mark.parametrize(
-    ("name", "told"),
+    ("name", "message"),
     [
         ("NU205", "NU205 is a cylindrical roller bearing: ballrace simulates ball bearings"),
         ("SKF NU 2205 ECP", "NU 2205 ECP is a cylindrical roller bearing"),
@@ -111,8 +111,8 @@ def test_what_may_be_another_bearing_is_told_and_taken(name: str, told: str) -> 
         ("NU 330", r"its fault frequencies are FTF 0\.4, BPFO 5\.6, BPFI 8\.4, BSF 2\.55 times the shaft's"),
     ],
 )  # fmt: skip
-def test_bearings_without_balls_are_refused_by_their_kind(name: str, told: str) -> None:
-    with pytest.raises(br.SceneError, match=told) as refused:
+def test_bearings_without_balls_are_refused_by_their_kind(name: str, message: str) -> None:
+    with pytest.raises(br.SceneError, match=message) as refused:
         br.bearing(name)
     assert refused.value.path == "designation"
     assert name not in br.catalogue

@@ -86,7 +86,7 @@ def test_two_faults_are_both_named_and_one_is_not_two(seed: int) -> None:
 
 
 def test_slip_and_speed_are_found() -> None:
-    """Blows 0.8 % beside the nominal order, and a shaft 0.6 % faster than told."""
+    """Blows 0.8 % beside the nominal order, and a shaft 0.6 % faster than given."""
     x = blows(1.008 * ORDERS.bpfo)
     t = np.arange(x.size) / FS
     x = noise(x + sum(np.cos(2 * np.pi * k * SHAFT * t + k) / k for k in range(1, 11)), 0.3)
@@ -170,10 +170,10 @@ def test_what_names_the_bearing_does_not_matter() -> None:
 def test_what_holds_the_record_does_not_matter() -> None:
     x = noise(blows(ORDERS.bpfi, 1.0), 0.3)
     record = br.Recording(columns={"quiet": np.ones(x.size), "DE": x}, fs=FS, shaft=SHAFT)
-    told = judged(x)
+    alone = judged(x)
     for found in (br.diagnose(record, "6205", column="DE"), br.diagnose(record.channel("DE"), "6205"),
                   br.diagnose(br.measure(x, fs=FS, shaft=SHAFT), "6205")):  # fmt: skip
-        assert found.evidence["inner_race"].z == pytest.approx(told.evidence["inner_race"].z)
+        assert found.evidence["inner_race"].z == pytest.approx(alone.evidence["inner_race"].z)
 
 
 def test_what_is_excluded_accuses_nobody() -> None:
@@ -209,15 +209,15 @@ def test_what_is_likelier_of_damage_is_not_cleared() -> None:
     """Of noise nothing stands out; a ratio of 1 : 20 leaves it open all the same, one of 1 : 2 does not."""
     evidence = judged(noise(np.zeros(24_000), 1.0)).evidence
 
-    def told(ratio: float) -> Verdict:
+    def decide(ratio: float) -> Verdict:
         given = dict(evidence) | {"ball": replace(evidence["ball"], ratio=ratio)}
         return decided(
             given, (), 0.01, strong=(), limits=None, silent=False, impacts=None, wanting=()
         )
 
-    assert told(0.5).verdict == "healthy"
-    assert told(0.05).verdict == "undecided"
-    assert "20 times likelier with the ball damaged" in told(0.05).why
+    assert decide(0.5).verdict == "healthy"
+    assert decide(0.05).verdict == "undecided"
+    assert "20 times likelier with the ball damaged" in decide(0.05).why
 
 
 def test_lines_between_both_limits_leave_it_open() -> None:
@@ -260,12 +260,12 @@ def test_lines_that_are_not_strong_need_blows() -> None:
     tones = [np.cos(2 * np.pi * k * ORDERS.bpfo * SHAFT * t + k * k) for k in range(4, 12)]
     waves = noise(np.sum(tones, axis=0), 1.0)
     struck = noise(blows(ORDERS.bpfo, duration=4.0), 0.05)
-    for x, told in ((waves, "undecided"), (struck, "damaged")):
+    for x, verdict in ((waves, "undecided"), (struck, "damaged")):
         scale = 1.0 / judged(x, unit="m/s^2").evidence["outer_race"].strength.acceleration
         found, strong = (judged(size * scale * x, unit="m/s^2") for size in (2.0, 9.0))
         assert found.evidence["outer_race"].strength.acceleration == pytest.approx(2.0)
-        assert (found.verdict, strong.verdict) == (told, "damaged")
-        assert ("sound bearings may have" in found.why) == (told == "undecided")
+        assert (found.verdict, strong.verdict) == (verdict, "damaged")
+        assert ("sound bearings may have" in found.why) == (verdict == "undecided")
 
 
 def test_only_strength_that_no_healthy_bearing_has_accuses_by_itself() -> None:
@@ -274,16 +274,16 @@ def test_only_strength_that_no_healthy_bearing_has_accuses_by_itself() -> None:
     evidence = judged(100.0 * x / x.std(), unit="m/s^2").evidence
     limits = limits_of(math.pi * br.catalogue["6205"].pitch_diameter * SHAFT)
 
-    def told(ratio: float, *strong: Part) -> Verdict:
+    def decide(ratio: float, *strong: Part) -> Verdict:
         given = dict(evidence) | {"outer_race": replace(evidence["outer_race"], ratio=ratio)}
         return decided(
             given, ("outer_race",), 0.01, strong=strong, limits=limits, silent=False, impacts=None,
             wanting=(),
         )  # fmt: skip
 
-    assert told(0.04).parts == told(0.06, "outer_race").parts == ("outer_race",)
-    assert told(0.06).verdict == "undecided"
-    assert "17 times likelier with it damaged, where 20 times are required" in told(0.06).why
+    assert decide(0.04).parts == decide(0.06, "outer_race").parts == ("outer_race",)
+    assert decide(0.06).verdict == "undecided"
+    assert "17 times likelier with it damaged, where 20 times are required" in decide(0.06).why
 
 
 def test_likelihood_decides_where_chance_leaves_doubt() -> None:
@@ -292,23 +292,23 @@ def test_likelihood_decides_where_chance_leaves_doubt() -> None:
     evidence = judged(100.0 * x / x.std(), unit="m/s^2").evidence
     limits = limits_of(math.pi * br.catalogue["6205"].pitch_diameter * SHAFT)
 
-    def told(chance: float, ratio: float, own: Part | None = None, unit: bool = True) -> Verdict:
+    def decide(chance: float, ratio: float, own: Part | None = None, unit: bool = True) -> Verdict:
         inner = replace(evidence["inner_race"], probability=chance, ratio=ratio)
         return decided(
             dict(evidence) | {"inner_race": inner}, () if own is None else (own,), 0.01, strong=(),
             limits=limits if unit else None, silent=False, impacts=None, wanting=(),
         )  # fmt: skip
 
-    assert told(0.02, 0.05).parts == ("inner_race",)
+    assert decide(0.02, 0.05).parts == ("inner_race",)
     assert (
         "as by chance in 2.0 % of records, and among simulated bearings are 20 times likelier"
-        in told(0.02, 0.05).why
+        in decide(0.02, 0.05).why
     )
     assert {
-        told(0.02, 0.2).verdict,
-        told(0.04, 0.05).verdict,
-        told(0.02, 0.05, "ball").verdict,
-        told(0.02, 0.05, unit=False).verdict,
+        decide(0.02, 0.2).verdict,
+        decide(0.04, 0.05).verdict,
+        decide(0.02, 0.05, "ball").verdict,
+        decide(0.02, 0.05, unit=False).verdict,
     } == {"undecided"}
 
 
@@ -334,10 +334,10 @@ def test_an_order_next_to_a_whole_one_needs_turns() -> None:
 
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("name", ["6204", "6308"])
-def test_an_exact_speed_tells_an_inner_race_from_the_shaft(name: str, seed: int) -> None:
+def test_an_exact_speed_separates_an_inner_race_from_the_shaft(name: str, seed: int) -> None:
     """Truth: 4.95 times a rate, and its sidebands, are 5 times one that is 1 % lower, and its neighbours.
 
-    In 40 turns nothing else tells them apart; blows once a turn of a shaft whose speed is known are no damage.
+    In 40 turns nothing else separates them; blows once a turn of a shaft whose speed is known are no damage.
     """
     order, long = br.catalogue[name].orders.bpfi, 40.0 / SHAFT
     assert 4.9 < order < 4.95
@@ -376,7 +376,7 @@ def test_shallow_lines_leave_it_open() -> None:
 
 
 def shaken(kind: str, rng: np.random.Generator, duration: float = 2.0) -> Signal:
-    """Return a record in which no part of the bearing speaks."""
+    """Return a record in which no part of the bearing has lines."""
     t = np.arange(round(duration * FS)) / FS
     white = rng.normal(size=t.size)
     phases = rng.uniform(0.0, 2.0 * np.pi, size=12)
@@ -415,18 +415,18 @@ def most(count: int, rate: float) -> int:
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_nothing_of_the_kind_is_damaged(kind: str) -> None:
-    told = [judged(shaken(kind, np.random.default_rng([7, k]))).verdict for k in range(8)]
-    assert told.count("damaged") <= most(8, 0.01)
-    assert kind != "clipped" or set(told) == {"undecided"}
+    verdicts = [judged(shaken(kind, np.random.default_rng([7, k]))).verdict for k in range(8)]
+    assert verdicts.count("damaged") <= most(8, 0.01)
+    assert kind != "clipped" or set(verdicts) == {"undecided"}
     # Noise that the shaft swells is no blows: 3 E[a⁴]/E[a²]² of a = 1 + cos(φ)/2 is 4.2.
     if kind in ("white noise", "coloured noise", "noise modulated by the shaft"):
-        assert told.count("healthy") >= 6
+        assert verdicts.count("healthy") >= 6
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("kind", KINDS)
 def test_false_alarms_come_at_the_rate_asked_for(kind: str) -> None:
-    """500 records of each kind; of white noise the probabilities themselves are told right, too."""
+    """500 records of each kind; of white noise the probabilities themselves are right, too."""
     found = [judged(shaken(kind, np.random.default_rng([8, k]), 1.0)) for k in range(500)]
     accused = sum(one.verdict == "damaged" for one in found)
     print(f"\n[verdict] {kind}, 500 records of 1 s | {accused} | at most {most(500, 0.01)}")
@@ -451,12 +451,12 @@ def test_500_records_that_allow_no_evidence_accuse_nobody() -> None:
         x[rng.integers(x.size)] = rng.choice([math.nan, math.inf, -math.inf])
         with pytest.raises(br.SceneError, match=r"^record = not a number, or infinite"):
             judged(x)
-    for kind, told in (
+    for kind, allowed in (
         ("silence", "left open"),
         ("0.1 s", "left open"),
         ("not a number", "refused"),
     ):
-        print(f"\n[verdict] {kind}, 500 records | 0 | all {told}")
+        print(f"\n[verdict] {kind}, 500 records | 0 | all {allowed}")
 
 
 def test_probabilities_are_those_of_extreme_values() -> None:
@@ -482,10 +482,10 @@ LACKING = {
 
 @pytest.mark.parametrize("lacking", LACKING)
 def test_a_record_that_allows_no_evidence_says_what_it_lacks(lacking: str) -> None:
-    x, more, told = LACKING[lacking]
+    x, more, why = LACKING[lacking]
     found = br.diagnose(x, "6205", RPM, **({"fs": FS} | more))  # type: ignore[arg-type]
     assert found.verdict == "undecided"
-    assert told in found.why
+    assert why in found.why
     assert not found.evidence
     with pytest.raises(br.SceneError, match="the record needs"):
         found.plot()
@@ -521,14 +521,14 @@ REFUSED: dict[str, Callable[[], object]] = {
 }
 
 
-@pytest.mark.parametrize("told", REFUSED)
-def test_bad_input_is_refused_by_name(told: str) -> None:
+@pytest.mark.parametrize("field", REFUSED)
+def test_bad_input_is_refused_by_name(field: str) -> None:
     with pytest.raises(br.SceneError) as caught:
-        REFUSED[told]()
-    assert str(caught.value).startswith(told)
+        REFUSED[field]()
+    assert str(caught.value).startswith(field)
 
 
-def test_it_is_told_in_five_lines_a_table_a_picture_and_a_page(tmp_path: Path) -> None:
+def test_it_is_shown_in_five_lines_a_table_a_picture_and_a_page(tmp_path: Path) -> None:
     found = judged(100.0 * X, unit="m/s^2", machine="medium_rigid")
     assert len(repr(found).splitlines()) <= 5
     assert "damaged, outer race" in repr(found)

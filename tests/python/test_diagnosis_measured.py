@@ -90,7 +90,7 @@ def test_lines_of_the_outer_race_do_not_accuse_the_inner(name: str) -> None:
 @pytest.mark.parametrize("number", CWRU)
 @pytest.mark.parametrize("first", [0.0, 1.0])
 def test_records_of_case_western_reserve(number: str, first: float) -> None:
-    """Their speed is told by the file; their unit is g."""
+    """Their speed is in the file; their unit is g."""
     fs = CWRU[number]
     record = br.read(there(FOLDER / "cwru" / f"{number}.mat"), fs=fs)
     found = judged(record["DE"], fs, 1797.0, first)
@@ -127,14 +127,14 @@ def test_widths_of_hit_sm_are_within_15_percent(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", [name for name in HIT if name[2] == "2"])
-def test_widths_that_the_ringing_hides_are_not_told(name: str) -> None:
+def test_widths_that_the_ringing_hides_are_not_reported(name: str) -> None:
     """2 degrees: 0.82 and 0.54 mm."""
     assert of_hit(name).width.value is None
     assert "no second event" in of_hit(name).width.why
 
 
 def test_likelihood_ratios_of_hit_sm() -> None:
-    """Their unit is not told, so strength does not count. Damage is always told; four sound races are doubted."""
+    """Their unit is not known, so strength does not count. Damage is always found, four sound races doubted."""
     wrong = []
     for name in HIT:
         parts, evidence = TRUTH[name[0]], of_hit(name).evidence
@@ -144,9 +144,9 @@ def test_likelihood_ratios_of_hit_sm() -> None:
             assert ratio < 1.0 or part not in parts, name
             if ratio < 1.0 and part not in parts:
                 wrong.append((name, 1.0 / ratio))
-    told = ", ".join(f"{name} 1 : {odds:.1f}" for name, odds in wrong)
+    ratios = ", ".join(f"{name} 1 : {odds:.1f}" for name, odds in wrong)
     print(
-        f"\n[verdict] HIT-SM, likelihood ratios of 42 races | {42 - len(wrong)} on the right side of 1 | {told}"
+        f"\n[verdict] HIT-SM, likelihood ratios of 42 races | {42 - len(wrong)} on the right side of 1 | {ratios}"
     )
     assert len(wrong) <= 4
     assert max(odds for _, odds in wrong) < 5.0
@@ -155,12 +155,12 @@ def test_likelihood_ratios_of_hit_sm() -> None:
 def test_the_table_of_the_validation_page() -> None:
     """Prints how many are right and how far they are from the threshold."""
     groups = {"healthy": "N", "inner race": "IR", "outer race": "OR"}
-    for told, begins in groups.items():
+    for kind, begins in groups.items():
         names = [name for name in HIT if name.startswith(begins)]
         found = [of_hit(name) for name in names]
         right = sum(d.parts == TRUTH[n[0]] for n, d in zip(names, found, strict=True))
         largest = [max(e.z for p, e in d.evidence.items() if p != "cage") for d in found]
         z = f"z {min(largest):.1f} to {max(largest):.1f}, threshold {found[0].threshold:.1f}"
         open_ = sum(d.verdict == "undecided" for d in found)
-        print(f"\n[verdict] HIT-SM, {told}, 4 s | {right} of {len(names)}, {open_} undecided | {z}")
+        print(f"\n[verdict] HIT-SM, {kind}, 4 s | {right} of {len(names)}, {open_} undecided | {z}")
         assert right == len(names)

@@ -63,7 +63,7 @@ def test_a_clipped_record_that_accuses_has_its_note_on_the_page(tmp_path: Path) 
     assert note in (tmp_path / "page.html").read_text(encoding="utf-8")
 
 
-def test_what_a_measurement_tells_of_its_clipping_is_told_once() -> None:
+def test_clipping_of_a_measurement_is_reported_once() -> None:
     x = noise(blows(ORDERS.bpfo), 0.3)
     with pytest.warns(br.AccuracyWarning, match="clipped"):
         sensed = br.measure(

@@ -24,7 +24,7 @@ def run(load: float, on: str | None, width_mm: float, duration: float) -> br.Sig
 
 
 def measured(out: br.Signals, seed: int, snr_db: float) -> br.Channel:
-    """Return what a sensor hears behind a random housing, in white noise so far below it."""
+    """Return what a sensor records behind a random housing, in white noise so far below it."""
     housing = br.measuring.random_housing(seed=seed, band=(3_000.0, 15_000.0))
     sensor = br.measure(out, housing=housing).channel()
     x = sensor.x[round(0.05 * FS) :]

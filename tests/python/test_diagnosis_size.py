@@ -83,13 +83,13 @@ def test_the_arc_between_two_blows_is_found(part: Race, arc: float) -> None:
     assert width.spacing == pytest.approx(arc * BALL, abs=0.01 * BALL)
     assert width.value is not None
     assert width.interval is not None
-    # What is told is the spacing and what spalls of the library are wider.
+    # What is reported is the spacing and what spalls of the library are wider.
     assert width.value == pytest.approx(width.spacing + bridged(part)[1] * BALL)
     assert width.interval[0] < width.value < width.interval[1]
     assert f"width {1e3 * width.value:.2f} mm" in repr(found)
 
 
-def test_where_a_width_cannot_be_told_the_reason_is() -> None:
+def test_where_no_width_is_known_there_is_a_reason() -> None:
     once = br.diagnose(passes("outer_race", 0.3, second=0.0), "6205", RPM, fs=FS)
     assert (once.parts, once.width.value, once.width.interval) == (("outer_race",), None, None)
     assert "no second event" in once.width.why
@@ -138,18 +138,18 @@ def test_an_interval_of_nine_in_ten_holds_nine_in_ten() -> None:
     assert 0.85 <= held / count <= 0.95
 
 
-def test_few_widths_are_told_of_spalls_that_are_too_narrow() -> None:
+def test_few_widths_are_reported_of_spalls_that_are_too_narrow() -> None:
     rows = library()
     rows = rows[np.isin(rows["part"], RACES)]
     clear, width = are_clear(rows), rows["width"]
-    told = {}
+    shares = {}
     for low, high in ((0.03, 0.1), (0.1, 0.2), (0.2, 0.45)):
         among = (low <= width) & (width < high)
-        told[low] = float(clear[among].mean())
+        shares[low] = float(clear[among].mean())
         print(f"\n[verdict] simulated, spalls of {low:g} to {high:g} ball diameters | width given for "
-              f"{told[low]:.0%} of {np.count_nonzero(among)} | any speed, load, noise")  # fmt: skip
-    assert told[0.03] < 0.03
-    assert told[0.2] > told[0.1]
+              f"{shares[low]:.0%} of {np.count_nonzero(among)} | any speed, load, noise")  # fmt: skip
+    assert shares[0.03] < 0.03
+    assert shares[0.2] > shares[0.1]
 
 
 @pytest.mark.parametrize("sized", [True, False])
@@ -163,18 +163,18 @@ def test_a_likelihood_ratio_is_calibrated(sized: bool) -> None:
             odds = odds_of(fitted(part, sized, bearing), rows_of(part, own, sized))
             chance += (odds / (1.0 + odds)).tolist()
             true += (own["part"] == part).tolist()
-    told, damaged = np.array(chance), np.array(true)
+    predicted, damaged = np.array(chance), np.array(true)
     off = 0.0
     for low, high in ((0.0, 0.05), (0.05, 0.3), (0.3, 0.7), (0.7, 0.95), (0.95, 1.01)):
-        among = (low <= told) & (told < high)
-        mean, share = told[among].mean(), damaged[among].mean()
+        among = (low <= predicted) & (predicted < high)
+        mean, share = predicted[among].mean(), damaged[among].mean()
         off += abs(mean - share) * among.mean()
         unit = "with" if sized else "without"
         print(f"\n[verdict] simulated, chance of damage {low:g} to {min(high, 1.0):g}, {unit} unit | "
               f"{share:.0%} of {np.count_nonzero(among)} damaged | {mean:.0%} predicted")  # fmt: skip
     assert off < 0.03
     # As good as chance would be 0.25 for halves; a fit that knows the shares alone has 0.17.
-    assert float(np.mean((told - damaged) ** 2)) < 0.08
+    assert float(np.mean((predicted - damaged) ** 2)) < 0.08
 
 
 def test_strength_is_judged_alike_at_any_size() -> None:

@@ -23,18 +23,18 @@ def again(row: br.Bearing) -> br.Bearing:
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_nine_of_ten_bearings_are_nearer_than_is_told(kind: Kind) -> None:
-    """Literature: balls by makers' ratings. 88 to 98 of 100 keep what is told, so it is no larger than needed."""
+def test_nine_of_ten_bearings_are_nearer_than_is_stated(kind: Kind) -> None:
+    """Literature: balls by makers' ratings. 88 to 98 of 100 keep it, so it is no larger than needed."""
     pairs = [(row, again(row)) for row in br.catalogue.find(kind=kind)]
     assert len(pairs) >= 30
     for name in ("ball_diameter", "ftf", "bpfo", "bpfi", "bsf"):
         kept = []
         for row, made in pairs:
-            told = made.uncertainty
-            assert told is not None
+            given = made.uncertainty
+            assert given is not None
             own = made if name == "ball_diameter" else made.orders
             real = row if name == "ball_diameter" else row.orders
-            off = told.ball_diameter if name == "ball_diameter" else getattr(told.orders, name)
+            off = given.ball_diameter if name == "ball_diameter" else getattr(given.orders, name)
             kept.append(abs(getattr(own, name) - getattr(real, name)) <= off)
         assert 0.88 <= np.mean(kept) <= 0.98, (name, np.mean(kept))
 

@@ -100,9 +100,9 @@ def rust_examples() -> Iterator[str]:
     """Return the examples of the crate's documentation, as rustdoc shows them."""
     for file in sorted((ROOT / "src").rglob("*.rs")):
         lines = file.read_text(encoding="utf-8").splitlines()
-        told = [re.sub(r"^\s*//[/!] ?", "", line) for line in lines if re.match(r"\s*//[/!]", line)]
+        docs = [re.sub(r"^\s*//[/!] ?", "", line) for line in lines if re.match(r"\s*//[/!]", line)]
         for example in re.findall(
-            r"^```\n(.*?)^```", "\n".join(told) + "\n", re.DOTALL | re.MULTILINE
+            r"^```\n(.*?)^```", "\n".join(docs) + "\n", re.DOTALL | re.MULTILINE
         ):
             yield "".join(
                 line for line in example.splitlines(keepends=True) if not re.match(r"#( |$)", line)

@@ -57,7 +57,7 @@ def test_a_document_without_a_schema_is_of_the_first() -> None:
 
 @pytest.mark.parametrize("extra", [{}, {"temperature": 40.0}, {"drive": {"hydraulic": 3.0}}])
 def test_a_newer_document_says_to_upgrade(extra: dict[str, object], tmp_path: Path) -> None:
-    """What it has that this version lacks is no mistake, and not what is told."""
+    """What it has that this version lacks is no mistake, and not what is reported."""
     document = {"schema": br.Scene.schema + 1, **DOCUMENT, **extra}
     path = tmp_path / "scene.json"
     path.write_text(json.dumps(document))
@@ -73,7 +73,7 @@ def test_a_newer_document_says_to_upgrade(extra: dict[str, object], tmp_path: Pa
     ("text", "path"),
     [('{"schema": 0}', "rows"), ('{"schema": "2"}', "schema"), ("[1]", "scene"), ("{", "scene")],
 )
-def test_other_mistakes_are_told_as_before(text: str, path: str) -> None:
+def test_other_mistakes_are_reported_as_before(text: str, path: str) -> None:
     with pytest.raises(br.SceneError) as caught:
         br.Scene.from_json(text)
     assert "--upgrade" not in str(caught.value)
@@ -82,13 +82,13 @@ def test_other_mistakes_are_told_as_before(text: str, path: str) -> None:
 
 def test_files_of_newer_versions_are_not_called_damaged(tmp_path: Path, out: br.Signals) -> None:
     path = tmp_path / "run.parquet"
-    told = metadata(out)
-    newer = json.dumps(json.loads(told["scene"]) | {"schema": br.Scene.schema + 1, "heat": 1.0})
-    out.to_polars().write_parquet(path, metadata={**told, "scene": newer})
+    entries = metadata(out)
+    newer = json.dumps(json.loads(entries["scene"]) | {"schema": br.Scene.schema + 1, "heat": 1.0})
+    out.to_polars().write_parquet(path, metadata={**entries, "scene": newer})
     with pytest.raises(br.FileError, match=r"schema = 2: .* --upgrade") as caught:
         br.Signals.read_parquet(path)
     assert "damaged" not in str(caught.value)
-    out.to_polars().write_parquet(path, metadata={**told, "ballrace": "9"})
+    out.to_polars().write_parquet(path, metadata={**entries, "ballrace": "9"})
     with pytest.raises(br.FileError, match=r"format 9, this .* reads 1; read it with the one"):
         br.Signals.scan_parquet(path)
 

@@ -1,4 +1,4 @@
-"""Defaults of a scene written by hand, and what is told of it; the numbers themselves are tested in Rust."""
+"""Defaults of a scene written by hand, and the doubts about it; the numbers themselves are tested in Rust."""
 
 from __future__ import annotations
 
@@ -54,14 +54,14 @@ def test_without_probes_what_can_move_is_recorded(scene: br.Scene) -> None:
     assert all(np.ptp(out[f"inner.{name}"]) > 0.0 for name in ("vy", "ay", "theta"))
 
 
-def test_a_run_tells_columns_that_cannot_change(scene: br.Scene) -> None:
+def test_a_run_reports_columns_that_cannot_change(scene: br.Scene) -> None:
     probe = br.scene.MotionProbe(body="outer", components=("ax", "ay"))
     with pytest.warns(br.SceneWarning, match=r"probes\.a = a\.ax, a\.ay: these columns never"):
         out = br.simulate(scene.replace({"probes": {"a": probe}}), duration=1e-4)
     assert len(out.warnings) == 1
 
 
-def test_statics_tell_doubts_and_pressures(scene: br.Scene, doubtful: br.Scene) -> None:
+def test_statics_report_doubts_and_pressures(scene: br.Scene, doubtful: br.Scene) -> None:
     """Truth: 1544.5 MPa on the inner race under Stribeck's 4.7 F/Z, and the cube root of the load by Hertz."""
     found = br.equilibrium(scene)
     assert found.warnings == scene.doubts() == ()
@@ -79,15 +79,15 @@ def test_statics_tell_doubts_and_pressures(scene: br.Scene, doubtful: br.Scene) 
         assert br.equilibrium(heavy).inner_pressure.max() > 4.2e9
 
 
-def test_a_campaign_tells_doubts_once_and_pressures_a_case(
+def test_a_campaign_reports_doubts_once_and_pressures_a_case(
     doubtful: br.Scene, tmp_path: Path
 ) -> None:
     table = br.grid({"loads.radial.force": [500.0, 4000.0]})
-    with pytest.warns(br.SceneWarning, match="start_angle") as told:
+    with pytest.warns(br.SceneWarning, match="start_angle") as warned:
         done = br.campaign(
             table, tmp_path, scene=doubtful, duration=1e-3, settle=0.0, progress=False
         )
-    assert len(told) == 1
+    assert len(warned) == 1
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", br.SceneWarning)
         found = [br.equilibrium(done.scene(case)) for case in done.manifest["case_id"]]
@@ -96,7 +96,7 @@ def test_a_campaign_tells_doubts_once_and_pressures_a_case(
     np.testing.assert_allclose(done.manifest["largest_pressure"], expected, rtol=0.02)
 
 
-def test_the_command_line_tells(
+def test_the_command_line_reports_doubts(
     doubtful: br.Scene, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = tmp_path / "scene.toml"
@@ -108,12 +108,12 @@ def test_the_command_line_tells(
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", br.SceneWarning)
         assert main(["equilibrium", str(path), "--json", "--stiffness", "--life"]) == 0
-    told = json.loads(capsys.readouterr().out)
-    assert len(told["balls"]) == 9
-    assert told["balls"][0]["outer_pressure"] > 1e8
-    assert told["warnings"][0].startswith("rows[0].start_angle")
-    assert np.shape(told["stiffness"]) == (3, 3)
-    assert len(told["inner_equivalent"]) == 1
+    found = json.loads(capsys.readouterr().out)
+    assert len(found["balls"]) == 9
+    assert found["balls"][0]["outer_pressure"] > 1e8
+    assert found["warnings"][0].startswith("rows[0].start_angle")
+    assert np.shape(found["stiffness"]) == (3, 3)
+    assert len(found["inner_equivalent"]) == 1
 
 
 @pytest.mark.parametrize(
@@ -137,7 +137,7 @@ def test_the_command_line_tells(
         ({"rows[0].texture": br.scene.Texture(outer=1e-7)}, "rows[0].texture.outer = 100 nm"),
     ],
 )
-def test_what_misleads_is_told_by_its_field(changes: dict[str, object], path: str) -> None:
+def test_what_misleads_is_reported_by_its_field(changes: dict[str, object], path: str) -> None:
     """Truth: each was simulated without a word."""
     spall = br.defects.spall(on="outer_race", width_mm=1.0)
     scene = br.bearing("6205", radial_load=500.0, axial_load=50.0, defects=spall)
@@ -146,7 +146,7 @@ def test_what_misleads_is_told_by_its_field(changes: dict[str, object], path: st
     assert [text for text in changed.doubts() if text.startswith(path)], changed.doubts()
 
 
-def test_units_of_the_arguments_are_told() -> None:
+def test_units_of_the_arguments_are_reported() -> None:
     """Truth: 29.95 turns a second are 1797 a minute, and a spall of a micrometre is none."""
     slow = br.bearing("6205", radial_load=500.0, speed_rpm=29.95)
     assert [text.split(" =")[0] for text in slow.doubts()] == ["drive.speed"]
@@ -154,20 +154,20 @@ def test_units_of_the_arguments_are_told() -> None:
     assert [text.split(" =")[0] for text in light.doubts()] == ["loads.radial.force"]
 
 
-def test_thrust_away_from_the_contacts_is_told() -> None:
+def test_thrust_away_from_the_contacts_is_doubted() -> None:
     """Truth: an angular contact bearing takes thrust one way; `br.bearing` refuses what `replace` lets by."""
     scene = br.bearing("7205B", radial_load=100.0, axial_load=500.0)
     assert scene.doubts() == ()
-    (told,) = scene.replace({"loads.axial.force": -500.0}).doubts()
-    assert told.startswith("thrust on the inner ring = -500 N: ")
+    (doubt,) = scene.replace({"loads.axial.force": -500.0}).doubts()
+    assert doubt.startswith("thrust on the inner ring = -500 N: ")
 
 
-def test_other_rings_without_other_rows_are_told() -> None:
+def test_other_rings_without_other_rows_are_doubted() -> None:
     """Truth: 60 and 130 mm put the balls near 95 mm; rows of the catalogue lie in the middle of their own."""
     other = dataclasses.replace(
         br.catalogue["6310"], bore=60e-3, outside_diameter=130e-3, width=31e-3
     )
-    (told,) = br.bearing(other).doubts()
-    assert told.startswith("rows[0].pitch_diameter = 80 mm: ")
+    (doubt,) = br.bearing(other).doubts()
+    assert doubt.startswith("rows[0].pitch_diameter = 80 mm: ")
     for name in ("608", "6310", "61808", "16008", "6416", "7308B", "3308"):
         assert br.bearing(name).doubts() == ()

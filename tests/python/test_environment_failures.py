@@ -217,12 +217,12 @@ def test_a_dask_scheduler_is_killed(tmp_path: Path) -> None:
         for process in (scheduler, worker):
             process.kill()
             process.wait()
-    told = re.search(r"; (\d+) of 300 cases are safe in .*; call again", str(caught.value))
-    assert told is not None, caught.value
+    safe = re.search(r"; (\d+) of 300 cases are safe in .*; call again", str(caught.value))
+    assert safe is not None, caught.value
     # The worker may have gone on for a while.
     assert (
         3
-        <= int(told[1])
+        <= int(safe[1])
         <= br.Campaign.open(tmp_path / "runs").manifest["status"].ne("missing").sum()
     )
     whole = run(table(9), tmp_path / "whole", duration=5e-3)

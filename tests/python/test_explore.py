@@ -329,7 +329,7 @@ def test_a_saved_report_is_that_of_the_run(spalled: br.Signals) -> None:
 def test_the_command_refuses_what_cannot_be_shown(tmp_path: Path) -> None:
     pytest.importorskip("marimo", reason="marimo is not installed")
     (tmp_path / "bad.toml").write_text("rows = 3", encoding="utf-8")
-    for arguments, said in (
+    for arguments, message in (
         (["bad.toml"], "rows"),
         (["missing.csv"], "missing.csv"),
         (["--port", "70000"], "1 to 65535"),
@@ -339,7 +339,7 @@ def test_the_command_refuses_what_cannot_be_shown(tmp_path: Path) -> None:
             cwd=tmp_path, capture_output=True, text=True, timeout=60.0, check=False,
         )  # fmt: skip
         assert (done.returncode, done.stdout) == (2, "")
-        assert said in done.stderr
+        assert message in done.stderr
 
 
 def test_without_marimo_it_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -188,8 +188,8 @@ def test_errors_are_what_records_of_another_start_differ_by(tmp_path: Path) -> N
     assert (manifest["batches"] == 10).all()
     for name in ("rms", "peak", "kurtosis", "row0.bpfo_envelope", "row0.bpfo_envelope_harmonics"):
         values = manifest[f"outer.ay.{name}"].to_numpy()
-        told = manifest[f"outer.ay.{name}_se"].to_numpy()
-        ratio = np.median(told) / np.std(values, ddof=1)
+        errors = manifest[f"outer.ay.{name}_se"].to_numpy()
+        ratio = np.median(errors) / np.std(values, ddof=1)
         # Chance: the deviation of 20 is good to 16 %.
         assert 0.45 < ratio < 2.2, (name, ratio)
 

@@ -75,8 +75,8 @@ def pack(library: Path, tmp_path_factory: pytest.TempPathFactory) -> Pack:
         folder = tmp_path_factory.mktemp("fmu")
         (folder / "scene.toml").write_text(of.to_toml(), encoding="utf-8")
         out = folder / "bearing.fmu"
-        told = main(["fmu", str(folder / "scene.toml"), "-o", str(out), "--library", str(library)])
-        assert told == 0
+        code = main(["fmu", str(folder / "scene.toml"), "-o", str(out), "--library", str(library)])
+        assert code == 0
         return out
 
     return packed
@@ -98,10 +98,10 @@ class Driven:
             modelIdentifier=self.described.coSimulation.modelIdentifier,
             instanceName="bearing",
         )
-        self.fmu.instantiate(logMessage=self._told)
+        self.fmu.instantiate(logMessage=self._log)
         self.time = 0.0
 
-    def _told(self, _: Any, status: int, category: bytes, message: bytes) -> None:
+    def _log(self, _: Any, status: int, category: bytes, message: bytes) -> None:
         assert category in {b"logStatusError", b"logStatusWarning"}
         self.log.append((status, message.decode()))
 
@@ -364,7 +364,7 @@ def test_states_come_back_bit_by_bit(pack: Pack) -> None:
 
 
 @pytest.mark.long
-def test_what_is_refused_is_told_by_name_and_goes_on(pack: Pack) -> None:
+def test_what_is_refused_is_logged_by_name_and_goes_on(pack: Pack) -> None:
     error = 3
     with driven(pack(scene())) as (bearing,):
         with pytest.raises(Exception, match="fmi3GetFloat64"):
@@ -380,13 +380,13 @@ def test_what_is_refused_is_told_by_name_and_goes_on(pack: Pack) -> None:
         bearing.fmu.reset()
         bearing.begin().step()
         good = bearing.everything()
-        for name, value, told in [
+        for name, value, message in [
             ("outer.load.fy", float("nan"), "outer.load.fy = NaN"),
             ("outer.y", 0.0, "outer.y is neither input nor parameter"),
         ]:
             with pytest.raises(Exception, match="fmi3SetFloat64"):
                 bearing.set({name: value})
-            assert bearing.log[-1][1].startswith(told)
+            assert bearing.log[-1][1].startswith(message)
         for name, value in [("outer.load.fy", 1e13), ("contact.damping", -1.0)]:
             before = bearing.get(name)[0]
             bearing.set({name: value})

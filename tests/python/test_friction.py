@@ -62,9 +62,9 @@ def test_skf_rolling_grows_with_speed_and_load_as_it_says() -> None:
 
 def test_skf_with_thrust() -> None:
     """Rolling is continuous where the thrust vanishes; sliding jumps, and is the formula's under thrust alone."""
-    hair = skf(axial_load=1e-9, static_rating=7800.0)
-    assert hair.rolling == pytest.approx(skf().rolling, rel=1e-5)
-    assert hair.sliding == pytest.approx(38.5**0.115 * skf().sliding)
+    little = skf(axial_load=1e-9, static_rating=7800.0)
+    assert little.rolling == pytest.approx(skf().rolling, rel=1e-5)
+    assert little.sliding == pytest.approx(38.5**0.115 * skf().sliding)
     thrust = skf(load=0.0, axial_load=-7800.0, static_rating=7800.0, rpm=0.0)
     sine = math.sin(math.radians(24.6))
     alone = 3.23e-3 * 38.5**-0.145 * (36.5 * 38.5**1.5 / sine * 7800.0**4) ** (1 / 3)

@@ -100,7 +100,7 @@ def test_the_reference_has_every_field(site: Path) -> None:
 @pytest.mark.long
 def test_the_reference_has_every_public_name(site: Path) -> None:
     text = "".join(page.read_text(encoding="utf-8") for page in (site / "api").glob("*.html"))
-    for name in set(br.__all__) - {"catalogue"}:  # which is told by its class
+    for name in set(br.__all__) - {"catalogue"}:  # which is documented by its class
         is_module = isinstance(getattr(br, name), types.ModuleType)
         wanted = f"module-ballrace.{name}" if is_module else rf"ballrace\.(\w+\.)*{name}"
         assert re.search(rf'id="{wanted}"', text), name
@@ -108,14 +108,14 @@ def test_the_reference_has_every_public_name(site: Path) -> None:
 
 def test_files_that_pages_name_are_there() -> None:
     named = 0
-    told = [
+    pages = [
         *ROOT.glob("*.md"),
         *GUIDE.rglob("*.md"),
         *ROOT.glob("benches/**/*.md"),
         *ROOT.glob("tests/**/*.md"),
     ]
-    # What the changelog tells of older versions may be gone.
-    for page in set(told) - {ROOT / "CHANGELOG.md"}:
+    # What the changelog says of older versions may be gone.
+    for page in set(pages) - {ROOT / "CHANGELOG.md"}:
         for path in re.findall(
             r"`((?:src|tests|python|benches|docs)/[\w./]+\.\w+)`", page.read_text(encoding="utf-8")
         ):
@@ -124,14 +124,14 @@ def test_files_that_pages_name_are_there() -> None:
     assert named > 30
 
 
-def test_the_paper_tells_numbers_that_are_tested_or_measured() -> None:
+def test_the_paper_has_numbers_that_are_tested_or_measured() -> None:
     """And cites what its bibliography has."""
     paper = (ROOT / "paper" / "paper.md").read_text(encoding="utf-8")
     sources = [ROOT / "tests" / "README.md", *ROOT.glob("benches/*.md")]
     known = set(NUMBER.findall("\n".join(page.read_text(encoding="utf-8") for page in sources)))
-    told = NUMBER.findall(paper.partition("# Validation")[2].partition("# What it cannot")[0])
-    assert len(told) > 20
-    assert set(told) <= known
+    numbers = NUMBER.findall(paper.partition("# Validation")[2].partition("# What it cannot")[0])
+    assert len(numbers) > 20
+    assert set(numbers) <= known
     entries = re.findall(
         r"@\w+\{(\w+),", (ROOT / "paper" / "paper.bib").read_text(encoding="utf-8")
     )
@@ -159,7 +159,7 @@ def test_the_gallery_has_every_picture() -> None:
         assert (GUIDE / picture).stat().st_size > 1000, picture
 
 
-def told_columns() -> list[tuple[re.Pattern[str], str]]:
+def columns_of_the_guide() -> list[tuple[re.Pattern[str], str]]:
     """Return the rows of the tables of columns as patterns with units."""
     anything, word = r".+", r"[^.]+"
     parts = {
@@ -194,8 +194,8 @@ def everything() -> s.Scene:
 
 
 def test_the_table_of_columns_is_whole(tmp_path: Path) -> None:
-    """Every column of signals and manifest has one row of the table, and the unit that a run tells."""
-    scene, told = everything(), told_columns()
+    """Every column of signals and manifest has one row of the table, and the unit that a run gives."""
+    scene, columns = everything(), columns_of_the_guide()
     out = br.simulate(scene, duration=0.002)
     done = br.campaign(
         # Standard errors want eight passes of balls.
@@ -205,8 +205,8 @@ def test_the_table_of_columns_is_whole(tmp_path: Path) -> None:
     done.measure(br.measuring.Chain(logger=br.measuring.Logger()))
     names = {"t", *out.names, *done.manifest.columns} - {"loads.radial.force"}
     for name in names:
-        units = {unit for pattern, unit in told if pattern.fullmatch(name)}
+        units = {unit for pattern, unit in columns if pattern.fullmatch(name)}
         assert len(units) == 1, (name, units)
         assert units == {out.units.get(name, *units)}, name
-    for pattern, _ in told:
+    for pattern, _ in columns:
         assert any(pattern.fullmatch(name) for name in names), f"no column {pattern.pattern}"

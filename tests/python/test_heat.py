@@ -104,7 +104,7 @@ def test_ten_kelvin_take_4_7_of_12_5_micrometres_of_a_6205() -> None:
     assert even.heat == pytest.approx(0.0, abs=1e-18)
 
 
-def test_fits_take_clearance_and_are_told() -> None:
+def test_fits_take_clearance_and_are_listed() -> None:
     """Analytic: 11.5 µm of k5 less 2.6 of smoothing, by d/F; an H7 has play and takes nothing."""
     made = br.catalogue["6205"]
     found = operating_clearance("6205/C3", shaft_fit="k5", housing_fit="H7")
@@ -112,7 +112,7 @@ def test_fits_take_clearance_and_are_told() -> None:
     assert found.shaft_fit == pytest.approx((11.5e-6 - 2.6e-6) * made.bore / raceway, rel=1e-9)
     assert found.housing_fit == 0.0
     assert found.clearance == pytest.approx(found.initial - found.shaft_fit)
-    told = str(found)
+    text = str(found)
     for part in (
         "before mounting",
         "fit on the shaft",
@@ -121,7 +121,7 @@ def test_fits_take_clearance_and_are_told() -> None:
         "in operation",
         "smoothing took 2.60",
     ):
-        assert part in told
+        assert part in text
 
 
 def test_an_aluminium_housing_lets_go_as_it_warms_up() -> None:
@@ -150,10 +150,10 @@ def test_a_scene_runs_with_it_and_explain_says_it() -> None:
     assert loads[1] < loads[0]
     with pytest.raises(br.SceneError, match=r"^rows\[0\]\.clearance = .*before mounting"):
         found.apply(mounted)
-    told = br.explain(mounted, clearance=found)
-    assert str(found) in str(told)
-    assert told.clearance["heat"] == found.heat
-    assert told.clearance["clearance"] == found.clearance
+    explanation = br.explain(mounted, clearance=found)
+    assert str(found) in str(explanation)
+    assert explanation.clearance["heat"] == found.heat
+    assert explanation.clearance["clearance"] == found.clearance
     with pytest.raises(br.SceneError, match=r"^clearance = .*in operation"):
         br.explain(scene, clearance=found)
 

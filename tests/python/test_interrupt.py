@@ -1,4 +1,4 @@
-"""A run or a static solve lets other threads go on, tells how far it is, and stops at once when asked to."""
+"""A run or a static solve lets other threads go on, reports how far it is, and stops at once when asked to."""
 
 from __future__ import annotations
 
@@ -97,7 +97,7 @@ def test_other_threads_go_on(wheel: br.Scene) -> None:
     assert all(0.0 <= share <= 1.0 for share in seen)
 
 
-def test_the_callback_hears_the_end(wheel: br.Scene) -> None:
+def test_the_callback_is_called_at_the_end(wheel: br.Scene) -> None:
     seen: list[float] = []
     br.simulate(wheel, duration=1e-3, start="rolling", progress=seen.append)
     assert seen[-1] == 1.0
@@ -193,19 +193,19 @@ print("running", flush=True)
 for _ in range(1000):
     {call}
 """
-"""Polars at work: it hears Ctrl-C by itself, and Python does."""
+"""Polars at work: it notices Ctrl-C by itself, and so does Python."""
 
 TIMED = """
 import sys, time
-def tell(kind, error, trace):
+def on_exception(kind, error, trace):
     print(kind.__name__, time.monotonic(), flush=True)
-sys.excepthook = tell
+sys.excepthook = on_exception
 """
-"""Tells when an exception comes out of a program, which may take its time to end thereafter."""
+"""Prints when an exception comes out of a program, which may take its time to end thereafter."""
 
 
-def heard_after(program: str) -> float:
-    """Start a program, send Ctrl-C while it runs, and return how long it took to be heard [s]."""
+def ended_after(program: str) -> float:
+    """Start a program, send Ctrl-C while it runs, and return how long it took to end [s]."""
     with subprocess.Popen(
         [sys.executable, "-c", TIMED + program],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
@@ -217,9 +217,9 @@ def heard_after(program: str) -> float:
         assert child.poll() is None, child.stderr.read()
         sent = time.monotonic()
         interrupt(child)
-        told = child.stdout.read().split()
-        assert told[:1] == ["KeyboardInterrupt"], (told, child.stderr.read())
-        return float(told[1]) - sent
+        printed = child.stdout.read().split()
+        assert printed[:1] == ["KeyboardInterrupt"], (printed, child.stderr.read())
+        return float(printed[1]) - sent
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Ctrl-C is sent in another way there")
@@ -228,7 +228,7 @@ def test_ctrl_c_is_answered_within_half_a_second(name: str) -> None:
     program, call = CALLS[name]
     # Of several tries the fastest, and the longer the more processes wait for each core.
     limit = 0.5 * max(1.0, os.getloadavg()[0] / (os.cpu_count() or 1))
-    tries = (heard_after(program.format(slices=100_000, call=call)) for _ in range(3))
+    tries = (ended_after(program.format(slices=100_000, call=call)) for _ in range(3))
     assert any(seconds < limit for seconds in tries)
 
 

@@ -91,8 +91,8 @@ def test_records_and_arrays_have_the_same_features() -> None:
     of_records = br.learn.EnvelopeLines("6205").fit_transform([record, record.channel()])
     wanted = lines().fit_transform([x, x])
     assert np.array_equal(of_records, wanted)
-    told = br.learn.EnvelopeLines("6205", speed_rpm=RPM)
-    assert np.array_equal(told.fit_transform([without])[0], wanted[0])
+    given = br.learn.EnvelopeLines("6205", speed_rpm=RPM)
+    assert np.array_equal(given.fit_transform([without])[0], wanted[0])
 
 
 def test_a_run_and_its_measurement_are_records() -> None:
@@ -109,7 +109,7 @@ def test_silence_and_short_windows_have_zeros() -> None:
 
 
 def test_in_a_pipeline_of_records() -> None:
-    """Twelve records of three classes, told apart without a mistake; a fitted one can be pickled."""
+    """Twelve records of three classes, separated without a mistake; a fitted one can be pickled."""
     names = [*RATES, "none"] * 4
     x = [
         br.Recording(columns={"a": blows(n, k)}, fs=FS, shaft=RPM / 60.0)

@@ -1,4 +1,4 @@
-"""A classifier of records, and what tells simulated from measured ones.
+"""A classifier of records, and what separates simulated from measured ones.
 
 Truth: analytic, blows at a known rate in noise, and features whose distribution is known.
 """

@@ -45,7 +45,7 @@ def pieces(x: Any, fs: float, rpm: float) -> list[br.Recording]:
     return [br.Recording(columns={"a": each}, fs=fs, shaft=rpm / 60.0) for each in cut]
 
 
-def told(model: Any, name: str, records: list[br.Recording], wanted: str) -> float:
+def share_right(model: Any, name: str, records: list[br.Recording], wanted: str) -> float:
     found = model.predict(records)
     right = float(np.mean(found == wanted))
     print(f"\n[learning] {name} | {len(records)} pieces | {100.0 * right:.0f} % {wanted}")
@@ -59,11 +59,11 @@ def test_pieces_of_hit_sm(model: Any, kind: str) -> None:
     for name in (each for each in HIT if each.startswith(kind)):
         x, rpm = hit(name)
         records += pieces(x, 51_200.0, rpm)
-    assert told(model, f"HIT-SM {kind}", records, NAMES[kind[0]]) >= 0.9
+    assert share_right(model, f"HIT-SM {kind}", records, NAMES[kind[0]]) >= 0.9
 
 
 @pytest.mark.parametrize("number", CWRU)
 def test_pieces_of_case_western_reserve(model: Any, number: str) -> None:
     x = br.read(there(Path(FOLDER) / "cwru" / f"{number}.mat"), fs=CWRU[number])["DE"]
     records = pieces(x, CWRU[number], 1797.0)
-    assert told(model, f"CWRU {number}", records, NAMES[number]) >= 0.8
+    assert share_right(model, f"CWRU {number}", records, NAMES[number]) >= 0.8

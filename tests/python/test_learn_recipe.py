@@ -77,9 +77,9 @@ def test_called_again_it_runs_only_what_is_missing(
     assert not seen
     assert np.array_equal(again.windows["x"].to_numpy(), data.windows["x"].to_numpy())
     more = made(folder, per_class=3, progress=True)
-    told = capsys.readouterr().err
-    assert re.search(r"dataset: 3 of 9 runs to do, 6 records: about .*, \d+ records an hour", told)
-    assert "6 from before" in told
+    text = capsys.readouterr().err
+    assert re.search(r"dataset: 3 of 9 runs to do, 6 records: about .*, \d+ records an hour", text)
+    assert "6 from before" in text
     assert set(before["case_id"]) < set(more.campaign.manifest["case_id"])
     assert more.windows.height == 18
 

@@ -136,7 +136,7 @@ def test_the_core_refuses_by_the_field(wheel: br.Scene, field: str, value: objec
         assert "vg68" in caught.value.allowed
 
 
-def test_named_oils_tell_their_numbers() -> None:
+def test_named_oils_have_their_numbers() -> None:
     oils = {oil.name: oil for oil in br.lubricants()}
     assert (oils["vg68"].viscosity_40, oils["vg68"].viscosity_100) == pytest.approx((68e-6, 8.7e-6))
     assert oils["fva3"].density_15 == 882.0

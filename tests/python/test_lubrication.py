@@ -58,22 +58,22 @@ def test_equilibrium_has_the_films_of_the_run(out: br.Signals) -> None:
     assert [film["film"] for film in out.provenance.films] == [outer.film, inner.film]
 
 
-def test_explain_tells_the_oil() -> None:
-    told = br.explain(SCENE)
-    (oil,) = told.oils
+def test_explain_gives_the_oil() -> None:
+    explanation = br.explain(SCENE)
+    (oil,) = explanation.oils
     assert (oil["oil"], oil["load_from"], oil["speed_from"]) == ("vg68", "equilibrium", "drive")
     assert oil["kinematic_viscosity"] == pytest.approx(34.8162e-6, rel=1e-4)
-    offered = {variant["change"]: variant["note"] for variant in told.variants}
+    offered = {variant["change"]: variant["note"] for variant in explanation.variants}
     assert "friction torque 0.2 instead of 9.7 N mm" in offered["without oil"]
-    assert "vg68 at 55 °C" in str(told)
+    assert "vg68 at 55 °C" in str(explanation)
 
 
 def test_doubtful_films_are_warned_of() -> None:
     rough = SCENE.replace({"lubricant.roughness": 1.9e-6})
     for solve in (br.equilibrium, lambda scene: br.simulate(scene, duration=0.001)):
-        with pytest.warns(br.SceneWarning) as told:
+        with pytest.warns(br.SceneWarning) as warned:
             solve(rough)
-        about = [str(one.message).split(" =")[0] for one in told]
+        about = [str(one.message).split(" =")[0] for one in warned]
         assert about == ["row 0, outer film, λ", "row 0, inner film, λ"]
 
 

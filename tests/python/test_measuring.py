@@ -275,7 +275,7 @@ def test_by_default_a_machine_is_as_loud_as_a_measured_one() -> None:
     for low, high in ((2000.0, 3000.0), (3000.0, 4000.0), (6000.0, 8000.0)):
         heights = [swollen(y, fs, (low, high), 29.93) for y in (ours, x)]
         assert 0.5 < heights[0] / heights[1] < 2.0, (low, high, heights)
-    # Without a shaft whose angle is known there is nothing to swell it, and a fault of true size is heard over it.
+    # Without a shaft whose angle is known there is nothing to swell it, and a fault of true size stands out of it.
     assert br.measure(np.zeros(1000), fs=fs, machine=m.Machine()).x.std() < 0.5
 
 
@@ -497,7 +497,7 @@ def test_stages_may_be_given_one_by_one() -> None:
         br.measure(x, fs=FS, hosing=HOUSING)  # type: ignore[call-arg]
 
 
-def test_a_table_tells_the_numbers_of_chains() -> None:
+def test_a_table_has_the_numbers_of_chains() -> None:
     found = m.table({"a": CHAIN, "b": m.Chain(logger=m.Logger(range=5.0))})
     first, second = found.rows(named=True)
     assert first["housing.modes[1].frequency"] == 3100.0

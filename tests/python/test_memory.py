@@ -13,7 +13,7 @@ import ballrace as br
 pytestmark = pytest.mark.serial
 
 if sys.platform != "linux":
-    pytest.skip("only Linux tells what there is", allow_module_level=True)
+    pytest.skip("only Linux reports what there is", allow_module_level=True)
 
 PROGRAM = """
 import os, resource
@@ -81,7 +81,7 @@ CASES = """table = {{"loads.radial.force": [1e3 + k for k in range(8)]}}
 
 
 def program(call: str) -> list[str]:
-    """Run under a limit and return the lines that are told: the refusal, and that all is well after it."""
+    """Run under a limit and return the lines that it prints: the refusal, and that all is well after it."""
     command = [sys.executable, "-c", PROGRAM.format(call=call)]
     ended = subprocess.run(command, capture_output=True, text=True, timeout=60.0, check=False)
     assert ended.returncode == 0, ended.stderr

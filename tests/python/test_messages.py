@@ -58,8 +58,8 @@ def test_names_in_a_campaign(tmp_path: Path, capsys: pytest.CaptureFixture[str])
     assert harmless(done.manifest["message"][0])
     assert harmless(done.status())
     assert harmless(repr(done))
-    told = capsys.readouterr()
-    assert harmless(told.err)
+    printed = capsys.readouterr()
+    assert harmless(printed.err)
     assert main(["campaign", "--status", str(done.folder)]) == 0
     assert harmless(capsys.readouterr().out)
 
@@ -87,7 +87,7 @@ def test_large_numbers_print_as_such(value: float) -> None:
 
 
 @pytest.mark.parametrize(
-    ("changes", "told"),
+    ("changes", "message"),
     [
         ({"rows[0].clearance": 0.1 + 0.2}, "rows[0].clearance = 0.3: from -794 µm to 3.97 mm"),
         ({"cage.play": -1.0}, "cage.play = -1: from 0 m to 1 m"),
@@ -97,13 +97,13 @@ def test_large_numbers_print_as_such(value: float) -> None:
         ({"outer_ring.diameter": 0.01}, "above the groove bottom of rows[0], 46.98 mm"),
     ],
 )
-def test_limits_are_told_in_a_readers_numbers(changes: dict[str, object], told: str) -> None:
+def test_limits_are_given_in_a_readers_numbers(changes: dict[str, object], message: str) -> None:
     with pytest.raises(br.SceneError) as caught:
         br.presets.deep_groove_6205().replace(changes)
-    assert told in str(caught.value)
+    assert message in str(caught.value)
 
 
-def test_what_cannot_be_carried_is_told_as_a_share() -> None:
+def test_what_cannot_be_carried_is_given_as_a_share() -> None:
     with pytest.raises(br.EquilibriumError, match=r"carried: [0-9.]+ % of the load is not"):
         br.equilibrium(br.presets.wheel_bearing(1e9))
 

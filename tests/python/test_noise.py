@@ -52,7 +52,7 @@ def test_records_know_their_unit() -> None:
 
 
 @pytest.mark.parametrize(
-    ("change", "told"),
+    ("change", "message"),
     [
         ({"fs": 16_000.0}, "fs = 16000: at least 20000 Hz"),
         ({"unit": "V"}, "unit = 'V': one of"),
@@ -61,9 +61,9 @@ def test_records_know_their_unit() -> None:
         ({"x": np.ones((3, 4))}, "x = "),
     ],
 )
-def test_what_has_no_bands_is_refused(change: dict[str, object], told: str) -> None:
+def test_what_has_no_bands_is_refused(change: dict[str, object], message: str) -> None:
     given = {"x": tone(100.0, 1e-5), "fs": FS, **change}
-    with pytest.raises(br.SceneError, match=told):
+    with pytest.raises(br.SceneError, match=message):
         bands_iso15242(**given)  # type: ignore[arg-type]
 
 

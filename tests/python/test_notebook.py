@@ -58,7 +58,7 @@ def test_a_scene_is_drawn_with_its_balls_load_and_damage() -> None:
     assert [len(list(drawn(shown(br.presets.wheel_bearing()))))] == [2]
 
 
-def test_a_scene_tells_its_doubts_or_why_it_is_refused() -> None:
+def test_a_scene_shows_its_doubts_or_why_it_is_refused() -> None:
     made = br.bearing("6205")
     assert "<li>" not in shown(made)
     odd = made.replace({"rows[0].clearance": 2e-3})
@@ -100,8 +100,8 @@ def test_a_waveform_keeps_every_peak() -> None:
 
 def test_explanation_and_campaign(tmp_path: Path) -> None:
     scene = br.bearing("6205")
-    told = br.explain(scene)
-    assert str(told).splitlines()[0][:20] in shown(told)
+    explanation = br.explain(scene)
+    assert str(explanation).splitlines()[0][:20] in shown(explanation)
     done = br.campaign(
         [{}, {}], tmp_path / "c", scene=scene, duration=1e-3, progress=False, keep="signals"
     )

@@ -19,12 +19,12 @@ def test_named_oils_are_listed_with_sources() -> None:
 
 
 def test_a_lubricant_is_resolved_with_sources() -> None:
-    told = json.loads(_core.oil('{"oil": "vg68", "temperature_c": 55, "limiting_stress": 0.05}'))
-    assert told["temperature"] == pytest.approx(328.15)
-    assert told["viscosity"]["value"] == pytest.approx(0.029842, rel=1e-4)
-    assert told["temperature_viscosity"]["value"] == pytest.approx(0.04022, rel=1e-4)
-    assert told["pressure_viscosity"]["value"] == pytest.approx(1.6223e-8, rel=1e-4)
-    sources = {name: of["source"] for name, of in told.items() if isinstance(of, dict)}
+    oil = json.loads(_core.oil('{"oil": "vg68", "temperature_c": 55, "limiting_stress": 0.05}'))
+    assert oil["temperature"] == pytest.approx(328.15)
+    assert oil["viscosity"]["value"] == pytest.approx(0.029842, rel=1e-4)
+    assert oil["temperature_viscosity"]["value"] == pytest.approx(0.04022, rel=1e-4)
+    assert oil["pressure_viscosity"]["value"] == pytest.approx(1.6223e-8, rel=1e-4)
+    sources = {name: of["source"] for name, of in oil.items() if isinstance(of, dict)}
     assert sources["viscosity_40"] == "named oil"
     assert sources["pressure_viscosity"] == "Gold et al. 2001"
     assert sources["limiting_stress"] == "given"

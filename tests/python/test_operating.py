@@ -101,7 +101,7 @@ FAST = [
 @pytest.mark.parametrize("spin", ["free", "axial"])
 @pytest.mark.parametrize(("case", "off"), FAST)
 @pytest.mark.filterwarnings("ignore:row 0. its balls orbited")
-def test_fast_balls_go_round_as_their_scene_tells(
+def test_fast_balls_go_round_as_their_scene_predicts(
     case: tuple[str, float, float, float], off: float, spin: Spin
 ) -> None:
     """Truth: the run. Gyroscopic moments put it 1 to 6 % ahead of rolling without them."""
@@ -109,9 +109,9 @@ def test_fast_balls_go_round_as_their_scene_tells(
     scene = br.bearing(name, radial_load=radial, axial_load=axial, speed_rpm=speed)
     scene = replace(scene, spin=spin)
     out = br.simulate(scene, duration=0.03)
-    told, found = br.fault_frequencies(scene), br.fault_frequencies(out)
-    assert found.ftf == pytest.approx(told.ftf, rel=off)
-    assert found.bpfo == pytest.approx(told.bpfo, rel=off)
+    of_scene, found = br.fault_frequencies(scene), br.fault_frequencies(out)
+    assert found.ftf == pytest.approx(of_scene.ftf, rel=off)
+    assert found.bpfo == pytest.approx(of_scene.bpfo, rel=off)
 
 
 @pytest.mark.parametrize("spin", ["free", "axial"])
@@ -173,14 +173,14 @@ def test_of_a_fast_run_lines_are_sought_where_its_balls_pass() -> None:
         probes={**scene.probes, **balls},
     )  # fmt: skip
     out = br.simulate(scene, duration=0.1)
-    told, found = br.fault_frequencies(scene), br.fault_frequencies(out)
+    of_scene, found = br.fault_frequencies(scene), br.fault_frequencies(out)
     angles = (np.unwrap(np.arctan2(out[f"{ball}.y"], out[f"{ball}.x"])) for ball in balls)
     turns = np.mean([angle[-1] - angle[0] for angle in angles]) / (2.0 * math.pi)
     assert found.ftf == pytest.approx(turns / (out.t[-1] - out.t[0]), rel=2e-4)
-    assert found.ftf == pytest.approx(told.ftf, rel=1e-2)
-    assert found.slip == pytest.approx(1.0 - found.ftf / told.ftf)
+    assert found.ftf == pytest.approx(of_scene.ftf, rel=1e-2)
+    assert found.slip == pytest.approx(1.0 - found.ftf / of_scene.ftf)
     frequency, height = br.spectra.envelope_spectrum(out["outer.ay"], out.fs)
-    near = np.abs(frequency / told.bpfo - 1.0) < 0.1
+    near = np.abs(frequency / of_scene.bpfo - 1.0) < 0.1
     strongest = frequency[near][np.argmax(height[near])]
     assert strongest == pytest.approx(found.bpfo, rel=5e-3)
     line = out.features(columns=["outer.ay"])["outer.ay.row0.bpfo_envelope"]
@@ -221,7 +221,7 @@ def test_a_line_is_narrow_and_sharp_and_lies_where_the_contact_runs() -> None:
     line = br.defects.line(on="inner_race")
     assert (line.width, line.length, line.edge_radius) == pytest.approx((0.2e-3, 2e-3, 0.05e-3))
     scene = br.bearing("7205B", speed_rpm=6000.0, defects={"line": line})
-    # Narrower than its contact: circles do not hear all of it, and the run says so.
+    # Narrower than its contact: circles do not meet all of it, and the run says so.
     with pytest.warns(br.SceneWarning, match="1.3 times the width of the contacts that meet it"):
         met = br.simulate(scene, duration=0.01, settle=0.0).defects["line"]
     assert (met.placed, met.share) == ("contact", 1.0)

@@ -63,8 +63,8 @@ def test_licences_of_what_is_compiled_in_come_along() -> None:
     assert text(ROOT, NOTICES) == notices()
     files = distribution("ballrace").files or []
     (bill,) = [file for file in files if file.match("sboms/*.cyclonedx.json")]
-    told = {part["name"] for part in json.loads(bill.read_text())["components"]}
-    assert set(re.findall(r"^([\w-]+) \d\S* \(", text(ROOT, NOTICES), re.MULTILINE)) <= told
+    listed = {part["name"] for part in json.loads(bill.read_text())["components"]}
+    assert set(re.findall(r"^([\w-]+) \d\S* \(", text(ROOT, NOTICES), re.MULTILINE)) <= listed
 
 
 def test_the_citation_is_one() -> None:

@@ -77,11 +77,11 @@ def test_envelope_line_sees_the_swing_and_not_the_tone() -> None:
     tone = (1.0 + 0.25 * np.cos(2.0 * np.pi * 100.0 * t)) * np.sin(2.0 * np.pi * 3000.0 * t)
     assert paper.envelope_line(tone, 200_000.0, 100.0) == pytest.approx(0.25, rel=1e-9)
     assert paper.envelope_line(tone, 200_000.0, 130.0) < 1e-9
-    # A swing outside the band is not heard.
+    # A swing outside the band does not count.
     assert paper.envelope_line(tone, 200_000.0, 100.0, (5000.0, 20_000.0)) < 1e-9
 
 
-def test_clarity_tells_impacts_from_noise() -> None:
+def test_clarity_separates_impacts_from_noise() -> None:
     fs, rate = 200_000.0, 100.0
     t = np.arange(18_000) / fs
     noise = np.random.default_rng(3).standard_normal((8, t.size))
@@ -107,7 +107,7 @@ def test_settling_time() -> None:
 
 
 def test_transient_does_not_hang_on_a_nanometre() -> None:
-    """Chaotic starts that nobody could tell apart give one transient; by its last high sample 18 to 33 ms."""
+    """Chaotic starts that nobody could distinguish give one transient; by its last high sample 18 to 33 ms."""
     probes = {"outer": MotionProbe(body="outer")}
     scene = br.presets.wheel_bearing(3000.0).replace({"defects": {}, "probes": probes})
     start = br.Model(scene).start("rolling")

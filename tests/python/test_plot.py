@@ -99,9 +99,9 @@ def test_a_missing_plotly_is_named_with_its_extra(tmp_path: Path) -> None:
         "    except ImportError as error: print(error.name, error)\n"
     )
     command = [sys.executable, "-c", code, str(tmp_path)]
-    told = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    printed = subprocess.run(command, check=True, capture_output=True, text=True).stdout
     needs = 'plotly a picture needs plotly (none): pip install "ballrace[plot]"'
-    assert told.splitlines() == [needs] * 3
+    assert printed.splitlines() == [needs] * 3
 
 
 def drawn(faulty: br.Signals, wheel: br.Scene) -> dict[str, Callable[..., go.Figure]]:
@@ -176,7 +176,7 @@ def test_fault_lines_stand_at_the_operating_angle() -> None:
 @pytest.mark.filterwarnings("ignore:defects.*on = ball")
 @pytest.mark.parametrize(("length_mm", "hits"), [(1.0, 1), (5.0, 2)])
 def test_the_lines_of_a_ball_are_those_the_model_has(length_mm: float, hits: int) -> None:
-    """Truth: the rate at which a ball of the run turned, once or twice of which its defect speaks."""
+    """Truth: the rate at which a ball of the run turned, once or twice of which its defect strikes."""
     scene = br.bearing("6205", radial_load=300.0, axial_load=300.0)
     offset: br.scene.AxialOffset = 0.0 if hits == 2 else "contact"
     defect = br.defects.spall(on="ball", width_mm=0.5, length_mm=length_mm, axial_offset=offset)
@@ -250,7 +250,7 @@ def test_unrolled_has_the_contacts_in_their_places(wheel: br.Scene) -> None:
     assert (min(box.y), max(box.y)) == (pytest.approx(1.57), pytest.approx(3.07))
 
 
-def test_section_leans_the_way_of_the_model(wheel: br.Scene) -> None:
+def test_section_has_the_contact_angles_of_the_model(wheel: br.Scene) -> None:
     """Row 0, side +1, touches its outer race towards +z, where its spall lies: on the groove, at the bottom."""
     fig = plot.section(wheel)
     spall = next(d for d in fig.data if d.line.width == 6)
@@ -274,10 +274,10 @@ def test_grooves_touch_the_balls_at_the_contact_angle() -> None:
     rows = [*br.presets.wheel_bearing().rows, br.bearing("7205B").rows[0]]
     for row in rows:
         centre = np.array([1e3 * row.axial_position, 0.5e3 * row.pitch_diameter])
-        lean = row.side * row.contact_angle
-        out = 0.5e3 * row.ball_diameter * np.array([np.sin(lean), np.cos(lean)])
-        np.testing.assert_allclose(groove(row, "outer", np.array([lean]))[0], centre + out)
-        np.testing.assert_allclose(groove(row, "inner", np.array([-lean]))[0], centre - out)
+        angle = row.side * row.contact_angle
+        out = 0.5e3 * row.ball_diameter * np.array([np.sin(angle), np.cos(angle)])
+        np.testing.assert_allclose(groove(row, "outer", np.array([angle]))[0], centre + out)
+        np.testing.assert_allclose(groove(row, "inner", np.array([-angle]))[0], centre - out)
 
 
 def test_orbit_is_seen_from_the_outer_ring(faulty: br.Signals) -> None:
@@ -373,7 +373,7 @@ def test_bad_arguments_are_named(faulty: br.Signals, animated: br.Signals, wheel
 def test_what_is_no_run_is_refused_by_name(
     faulty: br.Signals, tmp_path: Path, picture: Callable[..., object], field: str, allowed: str
 ) -> None:
-    """A measurement of a run, its signal, a record that was read, an array: told is which, and what may be."""
+    """A measurement of a run, its signal, a record from a file, an array: the message names it and what may be."""
     path = tmp_path / "record.csv"
     path.write_text("DE\n" + "0.0\n1.0\n" * 50, encoding="utf-8")
     measured, read = br.measure(faulty), br.read(path, fs=1e4)

@@ -41,7 +41,7 @@ def test_points_of_a_groove_are_the_groove() -> None:
     assert np.abs(first - second).max() < 1e-3 * np.abs(first).max()
 
 
-def test_a_four_point_bearing_leans_either_way() -> None:
+def test_a_four_point_bearing_has_contact_angles_of_either_sign() -> None:
     arch = s.GothicArch(shim_angle=0.5)
     four = bearing(outer_arch=arch, inner_arch=arch)
     assert s.Scene.from_toml(four.to_toml()) == four

@@ -201,7 +201,7 @@ def test_what_a_format_cannot_hold_is_refused_and_leaves_nothing(
     x = np.array([1.0, 2.0])
     odd = br.Recording(columns={"a.b": x, "a_b": x}, fs=0.5)
     far = br.Recording(columns={"a": 1e300 * x}, fs=8.0)
-    told = br.Recording(columns={"a": x}, fs=1.0, metadata={"a": object()})
+    unwritable = br.Recording(columns={"a": x}, fs=1.0, metadata={"a": object()})
     long = br.Recording(columns={"a" * 81: x}, fs=1.0)
     calls: list[tuple[str, br.Recording, str, Any]] = [
         ("path", record, "a.bz2", None),
@@ -211,7 +211,7 @@ def test_what_a_format_cannot_hold_is_refused_and_leaves_nothing(
         ("columns", odd, "a.mat", None),
         ("columns", long, "a.uff", None),
         ("columns", long, "a.mat", None),
-        ("metadata", told, "a.mat", None),
+        ("metadata", unwritable, "a.mat", None),
         ("columns", record, "a.csv", ["sensor"]),
         ("columns", record, "a.csv", []),
         ("columns", record, "a.csv", {"load": "x", "sensor.ay": "x"}),
@@ -277,10 +277,10 @@ def test_import_needs_none_of_the_libraries() -> None:
         "import ballrace, sys; heavy = {'scipy', 'polars', 'plotly', 'h5py', 'pyuff', 'xarray', 'pandas'};"
         "print(sorted(heavy & {name.partition('.')[0] for name in sys.modules}))"
     )
-    told = subprocess.run(
+    done = subprocess.run(
         [sys.executable, "-c", program], capture_output=True, text=True, check=True
     )
-    assert told.stdout == "[]\n"
+    assert done.stdout == "[]\n"
 
 
 @pytest.mark.parametrize("name", ["=1+1", "+x", "-x", "@SUM(A1)", "'=x", "ay", "'ay"])

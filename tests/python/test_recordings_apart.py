@@ -188,7 +188,7 @@ def test_without_a_clock_of_the_system_the_parent_ends_the_child(
 
 
 @of_linux
-def test_the_peak_is_what_linux_tells() -> None:
+def test_the_peak_is_what_linux_reports() -> None:
     status = Path("/proc/self/status").read_text()
     highest = 1024.0 * int(status.split("VmHWM:")[1].split()[0])
     assert _memory.peak() == pytest.approx(highest, rel=0.3)  # 1024 apart in another unit
@@ -207,15 +207,15 @@ def test_errors_of_the_child_are_those_of_this_process(csv: Path, tmp_path: Path
     csv.write_text("a,b\n1,x\n")
     (tmp_path / "none.h5").write_text("none")
     for path in (csv, tmp_path / "none.h5"):
-        told = []
+        arguments = []
         for trusted in (False, True):
             with pytest.raises(br.FileError) as raised:
                 br.read(path, trusted=trusted)
-            told.append(raised.value.args)
-        assert told[0] == told[1]
+            arguments.append(raised.value.args)
+        assert arguments[0] == arguments[1]
 
 
-def test_a_library_that_the_child_lacks_is_told(
+def test_a_library_that_the_child_lacks_is_reported(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (tmp_path / "h5py.py").write_text("raise ImportError('no such library', name='h5py')")

@@ -198,7 +198,7 @@ def test_whole_numbers_that_become_fractions_late(tmp_path: Path) -> None:
         ("t [s]\n0\n1\n", "has no column"),
     ],
 )
-def test_what_is_wrong_with_a_table_is_told(tmp_path: Path, text: str, message: str) -> None:
+def test_what_is_wrong_with_a_table_is_reported(tmp_path: Path, text: str, message: str) -> None:
     path = tmp_path / "table.csv"
     path.write_text(text)
     with pytest.raises(br.FileError, match=rf"table\.csv: .*({message})"):
@@ -288,7 +288,7 @@ def test_damaged_files_are_named(tmp_path: Path, end: str) -> None:
             br.read(path, fs=12e3)
 
 
-def test_the_format_is_told_by_contents_where_the_name_tells_none(tmp_path: Path) -> None:
+def test_the_format_is_found_by_contents_where_the_name_has_none(tmp_path: Path) -> None:
     record = br.Recording(columns={"x": X.astype(np.float32)}, fs=12e3)
     for end in (".csv", ".wav", ".mat", ".parquet"):
         record.write(tmp_path / f"record{end}")
@@ -321,10 +321,10 @@ def test_rates_formats_and_sizes_are_refused_by_name(
     assert read(path, 1.0, time_limit=10**400, memory_limit=10**400).n_samples == 2
 
 
-@pytest.mark.parametrize("told", [-5.0, float("nan"), 1e300])
-def test_a_rate_that_is_none_is_the_files_fault(tmp_path: Path, told: float) -> None:
+@pytest.mark.parametrize("rate", [-5.0, float("nan"), 1e300])
+def test_a_rate_that_is_none_is_the_files_fault(tmp_path: Path, rate: float) -> None:
     path = tmp_path / "a.mat"
-    savemat(path, {"ay": np.arange(4.0), "fs": told})
+    savemat(path, {"ay": np.arange(4.0), "fs": rate})
     with pytest.raises(br.FileError, match=r"a\.mat: has a sampling rate of .* Hz; give fs"):
         br.read(path)
     assert br.read(path, fs=12e3).fs == 12e3

@@ -42,17 +42,17 @@ def test_reduce_is_part_of_the_scene() -> None:
 
 def test_a_scene_is_explained() -> None:
     """Analytic: counts by hand; costs are only put in order."""
-    told = br.Model(plane()).summary()
-    assert (told.bodies, told.states, told.kept) == (11, 88, 44)
-    assert sum(2 * o["degrees"] for o in told.omissions) == 44
-    assert [c["evaluation"] for c in told.contacts] == ["closed form", "closed form"]
-    assert told.constant == ["gravity", "load"]
-    assert {"friction", "defects", "waviness"} <= set(told.absent)
-    assert told.cost.seconds == pytest.approx(told.cost.evaluations * told.cost.evaluation)
-    seconds = [v["seconds"] for v in told.variants]
+    summary = br.Model(plane()).summary()
+    assert (summary.bodies, summary.states, summary.kept) == (11, 88, 44)
+    assert sum(2 * o["degrees"] for o in summary.omissions) == 44
+    assert [c["evaluation"] for c in summary.contacts] == ["closed form", "closed form"]
+    assert summary.constant == ["gravity", "load"]
+    assert {"friction", "defects", "waviness"} <= set(summary.absent)
+    assert summary.cost.seconds == pytest.approx(summary.cost.evaluations * summary.cost.evaluation)
+    seconds = [v["seconds"] for v in summary.variants]
     assert seconds == sorted(seconds)
-    assert "44 of 88 are integrated" in str(told)
-    assert "note     nothing drives the balls' orbit" in str(told)
+    assert "44 of 88 are integrated" in str(summary)
+    assert "note     nothing drives the balls' orbit" in str(summary)
     assert br.explain(br.presets.deep_groove_6205()).notes == []
 
     thrust = br.explain(plane().replace({"loads.axial.force": 1.0}))

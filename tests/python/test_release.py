@@ -53,23 +53,23 @@ def copy(tmp_path: Path) -> Path:
 
 
 def replaced(root: Path, name: str, old: str, new: str) -> None:
-    told, count = re.subn(old, new, text(root, name), flags=re.MULTILINE)
+    changed, count = re.subn(old, new, text(root, name), flags=re.MULTILINE)
     assert count
-    (root / name).write_text(told, encoding="utf-8")
+    (root / name).write_text(changed, encoding="utf-8")
 
 
 @pytest.mark.parametrize(
     "name", ["Cargo.toml", "CITATION.cff", "CHANGELOG.md", "packaging/recipe.yaml"]
 )
-def test_two_versions_are_told(copy: Path, name: str) -> None:
+def test_two_versions_are_reported(copy: Path, name: str) -> None:
     version = manifest()["version"]
     before = {"Cargo.toml": f'version = "{version}"', "CITATION.cff": f"version: {version}"}
     before["packaging/recipe.yaml"] = f'version: "{version}"'
     old = before.get(name, f"## {version}")
     replaced(copy, name, re.escape(old), old.replace(version, "9.9.9"))
-    told = "\n".join(disagreements(copy))
-    assert "9.9.9" in told
-    assert ("Cargo.lock" if name == "Cargo.toml" else name) in told
+    found = "\n".join(disagreements(copy))
+    assert "9.9.9" in found
+    assert ("Cargo.lock" if name == "Cargo.toml" else name) in found
 
 
 def test_what_is_filled_in_may_be_published(copy: Path) -> None:
@@ -79,16 +79,16 @@ def test_what_is_filled_in_may_be_published(copy: Path) -> None:
 @pytest.mark.parametrize("field", ["repository", "documentation"])
 def test_an_address_that_nobody_filled_in(copy: Path, field: str) -> None:
     replaced(copy, "Cargo.toml", f"https://ballrace.invalid/{field}", PLACEHOLDER)
-    (told,) = obstacles(TAG, copy)
-    assert told.startswith(f"Cargo.toml: {field} ")
+    (obstacle,) = obstacles(TAG, copy)
+    assert obstacle.startswith(f"Cargo.toml: {field} ")
 
 
 def test_another_tag_and_a_changelog_without_a_day(copy: Path) -> None:
-    (told,) = obstacles("v9.9.9", copy)
-    assert "v9.9.9" in told
+    (obstacle,) = obstacles("v9.9.9", copy)
+    assert "v9.9.9" in obstacle
     replaced(copy, "CHANGELOG.md", ", 2026-12-01$", "")
-    (told,) = obstacles(TAG, copy)
-    assert told.startswith("CHANGELOG.md")
+    (obstacle,) = obstacles(TAG, copy)
+    assert obstacle.startswith("CHANGELOG.md")
 
 
 def test_addresses_stand_in_one_place() -> None:
@@ -105,8 +105,8 @@ def test_addresses_stand_in_one_place() -> None:
 
 
 def test_the_readme_of_a_package_leads_to_the_repository(copy: Path) -> None:
-    told = readme(copy)
-    links = re.findall(r"(!?)\[[^\]]*\]\(([^)#\s]+)", told)
+    page = readme(copy)
+    links = re.findall(r"(!?)\[[^\]]*\]\(([^)#\s]+)", page)
     assert len(links) > 15
     for picture, target in links:
         kind = "raw" if picture else "blob"
@@ -117,11 +117,11 @@ def test_the_readme_of_a_package_leads_to_the_repository(copy: Path) -> None:
 def test_the_readme_of_a_package_installs_from_the_registries(copy: Path) -> None:
     """And that of the repository from the source; what both say stands there once."""
     first = re.compile(r"```sh[^\n]*\n(.*?)\n", re.DOTALL)
-    told, source = readme(copy), text(ROOT, "README.md")
-    assert _command(first, told) == 'pip install "ballrace[plot]" && ballrace demo'
+    page, source = readme(copy), text(ROOT, "README.md")
+    assert _command(first, page) == 'pip install "ballrace[plot]" && ballrace demo'
     assert _command(first, source) == 'pip install ".[plot]" && ballrace demo'
-    assert "<!--" not in told
-    assert "tests/run" not in told
+    assert "<!--" not in page
+    assert "tests/run" not in page
     assert len(SOURCE.findall(source)) == source.count("<!--") / 2
 
 
@@ -137,10 +137,10 @@ def test_notes_are_those_of_the_version(copy: Path) -> None:
         file.write("\n## 0.0.1\n\n- Long ago.\n")
     version = manifest(copy)["version"]
     replaced(copy, "CHANGELOG.md", rf"^## {version}.*$", r"\g<0>\n\nOf this version.")
-    told = notes(copy)
-    assert told.startswith("Of this version.")
-    assert "Not yet." not in told
-    assert "Long ago." not in told
+    page = notes(copy)
+    assert page.startswith("Of this version.")
+    assert "Not yet." not in page
+    assert "Long ago." not in page
 
 
 @pytest.mark.parametrize(

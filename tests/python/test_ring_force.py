@@ -64,7 +64,7 @@ def test_an_equilibrium_has_a_force_by_code(scene: br.Scene) -> None:
     assert found.outer[1] == pytest.approx(-800.0 / STIFFNESS, rel=0.02)
 
 
-def test_a_record_tells_what_its_scene_does_not_have(scene: br.Scene, tmp_path: Path) -> None:
+def test_a_record_reports_what_its_scene_does_not_have(scene: br.Scene, tmp_path: Path) -> None:
     out = br.simulate(scene, duration=2e-4, settle=0.0, forces={"spring": FORCE})
     assert (
         out.warnings[-1]
@@ -147,7 +147,7 @@ def test_what_is_no_force_is_refused_by_name(scene: br.Scene) -> None:
     def returns(found: object) -> dict[str, br.RingForce]:
         return {"f": br.RingForce(ring="outer", wrench=lambda t, ring: found)}  # type: ignore[arg-type, return-value]
 
-    for forces, told in (
+    for forces, message in (
         ([FORCE], "forces = a list: a mapping of RingForce"),
         ({"f": spring}, "forces.f = a function: a RingForce"),
         ({"f": br.RingForce(ring="cage", wrench=spring)}, "forces.f.ring = 'cage'"),  # type: ignore[arg-type]
@@ -158,7 +158,7 @@ def test_what_is_no_force_is_refused_by_name(scene: br.Scene) -> None:
         (returns((1.0, 2.0, float("nan"))), "forces.f = .*three or six"),
         (returns(None), "forces.f = .*three or six"),
     ):
-        with pytest.raises(br.SceneError, match=told):
+        with pytest.raises(br.SceneError, match=message):
             br.simulate(scene, duration=1e-3, forces=forces)  # type: ignore[arg-type]
     simulation = br.Simulation(scene, settle=0.0, forces={"spring": FORCE})
     with pytest.raises(br.SceneError, match="forces = spring: absent for a snapshot"):

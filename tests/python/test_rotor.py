@@ -64,7 +64,7 @@ def test_a_table_has_a_matrix_for_each_load_and_speed(
 
 
 def test_bad_arguments_are_refused_by_name(scene: br.Scene) -> None:
-    for arguments, told in (
+    for arguments, message in (
         (
             {"loads": {"thrust": 1.0}},
             r"loads = 'thrust': names of the scene's loads: 'axial', 'radial'",
@@ -79,7 +79,7 @@ def test_bad_arguments_are_refused_by_name(scene: br.Scene) -> None:
         ({"speeds": 10.0}, "speeds = 10.0: speeds_rpm"),
         ({"positions": 0}, "positions = 0"),
     ):
-        with pytest.raises(br.SceneError, match=told):
+        with pytest.raises(br.SceneError, match=message):
             br.stiffness_table(scene, **arguments)
     with pytest.raises(EquilibriumError) as raised:
         br.stiffness_table(scene, {"radial": [200.0, 1e7]})

@@ -223,13 +223,13 @@ def scenes() -> list[s.Scene]:
         ),
         shaped(full),
         lubricated(full),
-        leaning(full),
+        tilting(full),
         textured(),
     ]
 
 
-def leaning(full: s.Scene) -> s.Scene:
-    """A scene whose rings lean, under loads off their centres."""
+def tilting(full: s.Scene) -> s.Scene:
+    """A scene whose rings tilt, under loads off their centres."""
     diagonal = [[float(i == j) for j in range(6)] for i in range(6)]
     held = s.Support(
         tilt_x=s.Spring(stiffness=1e4, damping=1.0),
@@ -379,8 +379,8 @@ def expected_by_core(scene: s.Scene, path: str, intruder: object) -> set[str]:
     with pytest.raises(br.SceneError) as caught:
         _core.scene_from_json(json.dumps(document))
     assert "stranger" in str(caught.value)
-    _, told, fields = caught.value.allowed.partition("there are: ")
-    return set(fields.split(", ") if told else re.findall(r"\"([^\"]+)\"", caught.value.allowed))
+    _, listed, fields = caught.value.allowed.partition("there are: ")
+    return set(fields.split(", ") if listed else re.findall(r"\"([^\"]+)\"", caught.value.allowed))
 
 
 def left_out() -> set[str]:
@@ -602,7 +602,7 @@ def test_a_cap_is_refused_by_the_field(
     assert caught.value.path == f"defects.pit.{named}"
 
 
-def test_documents_of_patches_do_not_speak_of_shapes(wheel: s.Scene) -> None:
+def test_documents_of_patches_do_not_name_shapes(wheel: s.Scene) -> None:
     assert "shape" not in wheel.to_dict()["defects"]["spall"]
     assert "shape" not in wheel.to_json()
 
@@ -626,15 +626,15 @@ def test_a_spall_between_steep_walls_is_placed_with_its_numbers() -> None:
 
 
 @pytest.mark.parametrize(
-    ("given", "told"),
+    ("given", "message"),
     [
         ({"walls": "sheer"}, "walls = 'sheer': 'rolled' or 'steep'"),
         ({"walls": "steep", "edge_radius_mm": 0.3}, r"edge_radius_mm = 0\.3: left out"),
         ({"edge_radius_mm": -0.3}, "edge_radius_mm"),
     ],
 )
-def test_walls_are_refused_by_the_field(given: dict[str, Any], told: str) -> None:
-    with pytest.raises(br.SceneError, match=told):
+def test_walls_are_refused_by_the_field(given: dict[str, Any], message: str) -> None:
+    with pytest.raises(br.SceneError, match=message):
         br.defects.spall(on="outer_race", width_mm=1.0, **given)
 
 

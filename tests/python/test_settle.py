@@ -14,7 +14,7 @@ from ballrace.cli.campaigns import read
 COLUMN = "outer.ay"
 
 
-def test_it_is_told_and_may_be_switched_off() -> None:
+def test_it_is_reported_and_may_be_switched_off() -> None:
     scene = br.presets.wheel_bearing()
     out = br.simulate(scene, duration=1e-3)
     assert 5e-3 < out.provenance.settled < 0.1

@@ -183,7 +183,7 @@ def test_other_files_are_refused(tmp_path: Path) -> None:
         ("slices", "QUJD", "the entry slices of its metadata"),
     ],
 )
-def test_broken_metadata_is_told(
+def test_broken_metadata_is_reported(
     out: br.Signals, tmp_path: Path, entry: str, text: str | None, message: str
 ) -> None:
     """A file that is broken says which and what of it, and is no fault of a scene."""
@@ -203,7 +203,7 @@ def test_broken_metadata_is_told(
     assert not isinstance(caught.value, br.SceneError)
 
 
-def test_damaged_columns_are_told(out: br.Signals, tmp_path: Path) -> None:
+def test_damaged_columns_are_reported(out: br.Signals, tmp_path: Path) -> None:
     path = tmp_path / "run.parquet"
     out.write_parquet(path)
     metadata = {k: v for k, v in pl.read_parquet_metadata(path).items() if k != "ARROW:schema"}
@@ -217,7 +217,7 @@ def test_damaged_columns_are_told(out: br.Signals, tmp_path: Path) -> None:
 
 
 def test_bit_rot_is_found(out: br.Signals, tmp_path: Path) -> None:
-    """Any flipped bit is told, before polars meets it: one of a length asks it for exabytes of memory."""
+    """Any flipped bit is reported, before polars meets it: one of a length asks it for exabytes of memory."""
     path = tmp_path / "run.parquet"
     out.write_parquet(path)
     data = path.read_bytes()

@@ -103,9 +103,9 @@ def test_a_damaged_or_foreign_snapshot_is_refused(tmp_path: Path) -> None:
     out.write_parquet(tmp_path / "record.parquet")
     with pytest.raises(br.FileError, match="no snapshot"):
         br.Simulation.restore(tmp_path / "record.parquet")
-    told = pl.read_parquet_metadata(path)
-    older = told["ballrace_snapshot"].replace('"version":"', '"version":"0.1.')
-    pl.DataFrame({"t": [0.0]}).write_parquet(path, metadata={**told, "ballrace_snapshot": older})
+    entries = pl.read_parquet_metadata(path)
+    older = entries["ballrace_snapshot"].replace('"version":"', '"version":"0.1.')
+    pl.DataFrame({"t": [0.0]}).write_parquet(path, metadata={**entries, "ballrace_snapshot": older})
     with pytest.raises(br.SceneError, match=r"snapshot\.version"):
         br.Simulation.restore(path)
 

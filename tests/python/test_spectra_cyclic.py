@@ -58,8 +58,8 @@ def test_coherence_is_that_of_the_swelling_and_of_no_filter(resonant: bool) -> N
     # Pieces that lie half over each other are worth a little less than each by itself.
     pieces = 2 * T.size / 64
     assert mean[2:].max() < 2.0 / pieces
-    told = spectra.improved_envelope_spectrum(x, RATES, FS, (100.0, 1900.0), length=64)
-    assert told == pytest.approx(mean, rel=1e-9)
+    found = spectra.improved_envelope_spectrum(x, RATES, FS, (100.0, 1900.0), length=64)
+    assert found == pytest.approx(mean, rel=1e-9)
     assert spectra.improved_envelope_spectrum(x, 11.0, FS).shape == (1,)
 
 

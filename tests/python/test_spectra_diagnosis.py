@@ -2,7 +2,7 @@
 
 Synthetic signals have known answers. Three public records of the Case Western Reserve University (see
 ``test_cwru.py`` for what they are and where they are looked for) are judged blind: nothing is known but the
-bearing's dimensions and the speed that the file tells. The rule is one number: the fault whose harmonics stand
+bearing's dimensions and the speed that the file gives. The rule is one number: the fault whose harmonics stand
 out most is named if they do so by 12 dB in the mean.
 
 Measured, with no band below 200, 500 and 800 Hz: the inner race of 105 by 19.1, 19.1 and 26.9 dB (drive end),

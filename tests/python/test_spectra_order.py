@@ -80,7 +80,7 @@ def test_an_order_map_is_a_spectrogram_over_the_angle() -> None:
     assert np.abs(order[np.argmax(density, axis=0)] - ORDER).max() < order[1]
 
 
-def test_a_simulated_shaft_tells_its_angle() -> None:
+def test_a_simulated_shaft_has_its_angle() -> None:
     out = br.simulate(br.presets.deep_groove_6205(), duration=0.05, fs=20_000)
     turn, _ = spectra.by_order(out["outer.ay"], out["inner.theta"])
     assert turn[-1] == pytest.approx(0.05 * 30.0, rel=0.01)

@@ -114,7 +114,7 @@ class Late:
 
 def late(scene: br.Scene, duration: float = 0.04) -> Late:
     with warnings.catch_warnings():
-        # Fast balls go round otherwise than rolling at one angle tells, which is what these tests look at.
+        # Fast balls go round otherwise than by rolling at one angle, which is what these tests look at.
         warnings.filterwarnings("ignore", "row 0: its balls orbited", br.SceneWarning)
         return Late(scene, br.simulate(scene, duration=duration, settle=0.0))
 

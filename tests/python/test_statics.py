@@ -26,8 +26,8 @@ def test_stiffness_arrays(scene: br.Scene) -> None:
     np.testing.assert_array_equal(found.equilibrium.outer_load, br.equilibrium(scene).outer_load)
 
 
-def test_the_residual_is_told(scene: br.Scene) -> None:
-    """Truth: forces balance to the precision of the solve; what is left is told beside the largest load."""
+def test_the_residual_is_reported(scene: br.Scene) -> None:
+    """Truth: forces balance to the precision of the solve; what is left is reported beside the largest load."""
     eq = br.equilibrium(scene)
     assert 0.0 <= eq.residual < 1e-6 * eq.outer_load.max()
     assert eq.residual_share == pytest.approx(eq.residual / 500.0, rel=0.5)

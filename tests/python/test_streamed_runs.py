@@ -89,7 +89,7 @@ def test_signals_of_a_file_are_signals(tmp_path: Path) -> None:
     same(br.Signals.read_parquet(tmp_path / "again.parquet"), out)
 
 
-def test_a_file_that_changes_or_is_damaged_is_told(tmp_path: Path) -> None:
+def test_a_file_that_changes_or_is_damaged_is_reported(tmp_path: Path) -> None:
     path = tmp_path / "record.parquet"
     out = br.simulate(wide(1), duration=1e-3, out=path)
     data = path.read_bytes()
@@ -104,7 +104,7 @@ def test_a_file_that_changes_or_is_damaged_is_told(tmp_path: Path) -> None:
         br.Signals.scan_parquet(path)
 
 
-def test_warnings_are_told(tmp_path: Path) -> None:
+def test_warnings_are_reported(tmp_path: Path) -> None:
     scene = br.presets.wheel_bearing().replace({"friction.coulomb.slip_speed": 1e-4})
     with pytest.warns(br.AccuracyWarning, match="accelerations are uncertain"):
         out = br.simulate(
@@ -185,7 +185,7 @@ sys.exit(main(options.split()))
 
 @pytest.mark.skipif(sys.platform == "win32", reason="there is no limit of a file's size")
 @pytest.mark.parametrize("limit", [1 << 20, 15 << 20], ids=["block", "whole"])
-def test_a_disk_that_is_full_is_told_and_leaves_nothing(tmp_path: Path, limit: int) -> None:
+def test_a_disk_that_is_full_is_reported_and_leaves_nothing(tmp_path: Path, limit: int) -> None:
     """Limit: of the size of files, below that of a block, or of the blocks together."""
     (tmp_path / "scene.toml").write_text(br.presets.deep_groove_6205().to_toml())
     command = [sys.executable, "-c", LIMITED.format(limit=limit)]
@@ -235,10 +235,10 @@ ENDLESS = (
     + """
 from ballrace._io.record import Writer
 take = Writer.take
-def told(self, columns):
+def take_and_print(self, columns):
     take(self, columns)
     print("a block", flush=True)
-Writer.take = told
+Writer.take = take_and_print
 br.simulate(scene, duration=100.0, settle=0.0, out="record.parquet")
 """
 )
@@ -315,7 +315,7 @@ def taken(duration: float, fs: float, out: str, folder: Path) -> tuple[int, int]
     return int(size), int(peak)
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="what a process took is told in other units")
+@pytest.mark.skipif(sys.platform != "linux", reason="what a process took is given in other units")
 def test_memory_does_not_grow_with_the_record(tmp_path: Path) -> None:
     """Limit: ten times the record takes far less than itself more; one that is kept takes itself."""
     out = 'out="record.parquet"'

@@ -84,7 +84,7 @@ def test_a_load_at_the_tyre_moves_the_load_to_the_other_row() -> None:
 
 @pytest.mark.long
 def test_what_the_tyre_does_to_the_line_of_the_envelope() -> None:
-    """Truth: the load of the ball that passes the spall. Side forces of either sign exchange what is heard."""
+    """Truth: the load of the ball that passes the spall. Side forces of either sign exchange the lines."""
     probes = {
         "outer": s.MotionProbe(body="outer", components=("ay",)),
         "ball": s.MotionProbe(body="row0.ball0", components=("x", "y")),

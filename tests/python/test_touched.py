@@ -1,4 +1,4 @@
-"""Defects lie where contacts run; runs, explanations and campaigns tell which of them were touched.
+"""Defects lie where contacts run; runs, explanations and campaigns report which of them were touched.
 
 Truth: the static equilibrium for the place, and a healthy bearing for what is not touched.
 """
@@ -50,11 +50,11 @@ def test_by_default_a_spall_lies_where_the_contact_runs(tmp_path: Path) -> None:
     out = br.simulate(scene, duration=DURATION)
     at = br.equilibrium(angular_7208())
     ran = at.inner_zone_centre[np.argmax(at.inner_load)]
-    told = out.defects["spall"]
-    assert told.axial_offset == out.scene.defects["spall"].axial_offset
-    assert told.axial_offset == pytest.approx(ran, abs=1e-9)
-    assert (told.placed, told.on, told.share) == ("contact", "inner_race", 1.0)
-    assert told.largest_load > 50.0
+    defect = out.defects["spall"]
+    assert defect.axial_offset == out.scene.defects["spall"].axial_offset
+    assert defect.axial_offset == pytest.approx(ran, abs=1e-9)
+    assert (defect.placed, defect.on, defect.share) == ("contact", "inner_race", 1.0)
+    assert defect.largest_load > 50.0
     assert rms(out) > 10.0 * healthy
     assert out.warnings == ()
 
@@ -79,10 +79,10 @@ def test_what_is_not_touched_is_warned_of() -> None:
     assert br.simulate(angular_7208(), duration=1e-4).defects == {}
 
 
-def test_an_explanation_tells_the_place() -> None:
-    told = br.explain(angular_7208(spall=INNER))
-    assert told.defects[0]["placed"] == "contact"
-    assert "touched at 15 of 15 places of a turn" in str(told)
+def test_an_explanation_has_the_place() -> None:
+    explanation = br.explain(angular_7208(spall=INNER))
+    assert explanation.defects[0]["placed"] == "contact"
+    assert "touched at 15 of 15 places of a turn" in str(explanation)
     missed = br.explain(angular_7208(spall=replace(INNER, axial_offset=0.0)))
     assert missed.defects[0]["touched"] == 0
     assert "not touched: contacts run at" in str(missed)

@@ -133,17 +133,17 @@ def test_what_cannot_be_followed_is_refused(path: str, given: Any, options: dict
 def test_a_change_is_the_ratio_to_the_reference() -> None:
     """Twice the record is twice the velocity, and as impulsive; blows of a record raise its kurtosis alone."""
     before, faulty = taken(1, 0.0), taken(1, 8.0)
-    told: dict[str, Any] = {"fs": FS, "unit": "m/s^2"}
-    found = br.diagnose(faulty, "6205", RPM, **told)
+    arguments: dict[str, Any] = {"fs": FS, "unit": "m/s^2"}
+    found = br.diagnose(faulty, "6205", RPM, **arguments)
     assert found.severity is not None
     assert found.severity.change is None
-    twice = found.against(0.5 * faulty, **told).severity
+    twice = found.against(0.5 * faulty, **arguments).severity
     assert twice is not None
     assert twice.change is not None
     assert vars(twice.change) == pytest.approx(
         {"velocity": 2.0, "crest_factor": 1.0, "kurtosis": 1.0}
     )
-    rose = found.against(before, **told).severity
+    rose = found.against(before, **arguments).severity
     assert rose is not None
     assert rose.change is not None
     assert rose.change.kurtosis == pytest.approx(found.severity.kurtosis / 3.0, rel=0.1)

@@ -105,7 +105,7 @@ def test_sidebands_stand_where_a_race_turns_past_the_load() -> None:
     assert "BPFO − f_o" not in still
 
 
-def test_a_hub_runs_and_tells_its_frequencies() -> None:
+def test_a_hub_runs_and_has_its_frequencies() -> None:
     """Rolling under load and what the run measured are within what slip and load zone do."""
     scene = hub()
     assert relative_speed(scene) == -1800.0 * TURN
@@ -121,11 +121,11 @@ def test_a_hub_runs_and_tells_its_frequencies() -> None:
     assert 30.0 - measured.ftf == pytest.approx(measured.bpfo / 9.0)
     assert out["outer.theta"][-1] == pytest.approx(1800.0 * TURN * out.t[-1], rel=1e-3)
     assert out.defects["defect"].passes >= 4
-    told = out.features(columns=["outer.ay"])
-    assert told["turns"] == pytest.approx(1.5, rel=0.01)
-    assert "outer.ay.row0.bpfo_sidebands" in told
+    features = out.features(columns=["outer.ay"])
+    assert features["turns"] == pytest.approx(1.5, rel=0.01)
+    assert "outer.ay.row0.bpfo_sidebands" in features
     # The inner race stands in the load.
-    assert told["outer.ay.row0.bpfi_sidebands"] is None
+    assert features["outer.ay.row0.bpfi_sidebands"] is None
     channel = out.channel("outer.ay")
     assert channel.shaft == pytest.approx(30.0)
     assert kinematics_of(scene).orders.outer == pytest.approx(1.0)
@@ -253,8 +253,8 @@ def test_speeds_of_a_record_that_do_not_fit_are_refused_by_name() -> None:
             r"^outer_rpm = None",
         ),
     ]
-    for arguments, named, told in bad:
-        with pytest.raises(br.SceneError, match=told):
+    for arguments, named, message in bad:
+        with pytest.raises(br.SceneError, match=message):
             br.diagnose(x, *arguments, fs=16_000.0, **named)  # type: ignore[arg-type]
 
 
@@ -289,7 +289,7 @@ def test_the_page_of_explore_has_both_speeds() -> None:
     assert solved(rising).rates[0].shaft == 1.0
 
 
-def test_a_report_tells_the_turns_of_both_rings(tmp_path: Path) -> None:
+def test_a_report_has_the_turns_of_both_rings(tmp_path: Path) -> None:
     out = br.simulate(hub(), duration=0.05)
     out.report(tmp_path / "hub.html")
     page = (tmp_path / "hub.html").read_text()
@@ -330,8 +330,8 @@ def test_bad_speeds_are_refused_by_name() -> None:
             "outer_ring.support.theta = a mount: absent, since outer_speed",
         ),
     ]
-    for changes, told in bad:
-        with pytest.raises(br.SceneError, match="^" + told.replace("(", "\\(")):
+    for changes, message in bad:
+        with pytest.raises(br.SceneError, match="^" + message.replace("(", "\\(")):
             hub(**changes)
     with pytest.raises(br.SceneError, match=r"^outer_rpm = nan"):
         br.bearing("6205", outer_rpm=math.nan)

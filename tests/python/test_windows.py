@@ -1,4 +1,4 @@
-"""Tables for learning: each window tells all of itself."""
+"""Tables for learning: each window has all that is known of it."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def test_windows_are_the_samples(run: br.Signals) -> None:
     assert run.to_windows(64).height == 3
 
 
-def test_a_measurement_tells_of_its_run() -> None:
+def test_a_measurement_has_the_labels_of_its_run() -> None:
     """A load that rises by 100 N/s, of which half a second is over when the measurement begins."""
     load = Ramp(from_=100.0, to=200.0, start=0.0, end=1.0)
     scene = br.bearing("6205", defects=br.defects.spall(on="ball", width_mm=1.0))
@@ -53,7 +53,7 @@ def test_a_measurement_tells_of_its_run() -> None:
     assert (alone["label"][0], alone["speed"][0]) == ("worn", pytest.approx(50.0 * math.pi))
 
 
-def test_a_row_tells_what_it_is_of(run: br.Signals) -> None:
+def test_a_row_has_what_it_is_of(run: br.Signals) -> None:
     row = run.to_windows(100, bearing_id=7, columns="outer.ay").row(0, named=True)
     assert (row["label"], row["bearing_id"], row["sampling_rate"]) == ("outer_race", 7, 20_000.0)
     assert row["speed"] == SCENE.drive.speed  # type: ignore[union-attr]
@@ -93,7 +93,7 @@ def test_speed_and_load_are_those_of_the_middle(speed: Any, wanted: list[float])
     assert axial == [1.0, 2.0]
 
 
-def test_without_defects_or_a_told_speed() -> None:
+def test_without_defects_or_a_given_speed() -> None:
     scene = br.presets.deep_groove_6205().replace({"drive": TorqueDrive(value=0.1)})
     run = br.simulate(scene, duration=2e-3, fs=20_000, start="rolling", settle=0.0)
     row = run.to_windows(40).row(0, named=True)
@@ -101,7 +101,7 @@ def test_without_defects_or_a_told_speed() -> None:
     assert run.to_windows(40, label="good")["label"][0] == "good"
 
 
-def test_a_recording_tells_what_it_knows() -> None:
+def test_a_recording_has_what_it_knows() -> None:
     record = br.Recording(columns={"DE": np.arange(10.0)}, fs=12e3, units={"DE": "g"}, shaft=30.0)
     row = record.to_windows(10, label="inner_race").row(0, named=True)
     assert row["speed"] == pytest.approx(60.0 * math.pi)

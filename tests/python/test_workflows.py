@@ -78,15 +78,15 @@ def test_every_python_and_platform_is_tested() -> None:
 
 
 def test_dependencies_of_every_kind_are_kept_up_to_date() -> None:
-    told = text(ROOT, ".github/dependabot.yml")
-    assert set(re.findall(r"package-ecosystem: (\S+)", told)) == {"github-actions", "cargo", "pip"}
+    file = text(ROOT, ".github/dependabot.yml")
+    assert set(re.findall(r"package-ecosystem: (\S+)", file)) == {"github-actions", "cargo", "pip"}
 
 
-def test_zenodo_is_told_what_the_citation_tells() -> None:
-    told, citation = json.loads(text(ROOT, ".zenodo.json")), text(ROOT, "CITATION.cff")
-    assert f'title: "{told["title"]}"' in citation
-    assert told["keywords"] == re.findall(r"^  - ([a-z ]+)$", citation, re.MULTILINE)
-    assert [c["name"] for c in told["creators"]] == re.findall(
+def test_zenodo_has_what_the_citation_has() -> None:
+    archive, citation = json.loads(text(ROOT, ".zenodo.json")), text(ROOT, "CITATION.cff")
+    assert f'title: "{archive["title"]}"' in citation
+    assert archive["keywords"] == re.findall(r"^  - ([a-z ]+)$", citation, re.MULTILINE)
+    assert [c["name"] for c in archive["creators"]] == re.findall(
         r"^  - name: (.+)$", citation, re.MULTILINE
     )
 
