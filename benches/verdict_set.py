@@ -258,7 +258,7 @@ def characteristic(
 
 
 def summary(rows: Sequence[Row]) -> Iterator[tuple[str, str, str]]:
-    """Tell what was judged, what was found, and what that is to be compared with."""
+    """Return what was judged, what was found, and what that is to be compared with."""
     healthy = select(rows, part="none")
     for rate in RATES:
         counts = ", ".join(str(accused(select(healthy, snr_db=snr), rate)) for snr in NOISES)
@@ -303,11 +303,11 @@ def _detected(part: str, rows: Sequence[Row]) -> Iterator[tuple[str, str, str]]:
         ways: tuple[tuple[Rate, str], ...] = (
             (RATES[0], ""), ("exact", f", the speed known within {EXACT:.1%}"),
         )  # fmt: skip
-        for told_, known in ways:
+        for rate, known in ways:
             yield (
-                f"set, {len(own)} of these in {TURNS} turns, which tell its order from the shaft's{known}",
-                f"{found(own, told_):.0%} named",
-                f"of the other {len(others)} {found(others, told_):.0%}",
+                f"set, {len(own)} of these in {TURNS} turns, which separate its order from the shaft's{known}",
+                f"{found(own, rate):.0%} named",
+                f"of the other {len(others)} {found(others, rate):.0%}",
             )
 
 

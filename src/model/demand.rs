@@ -14,7 +14,7 @@ const ENTRY: f64 = 400.0;
 /// 16 rows of 1000: 5 kB.
 const BALL: f64 = 10_000.0;
 /// A ball that a defect may meet, as it is watched \[bytes\].
-const EYE: f64 = 64.0;
+const WATCHED_BALL: f64 = 64.0;
 
 /// Refuses to compile what does not fit into memory.
 pub(super) fn check(scene: &Scene) -> Result<()> {
@@ -31,9 +31,9 @@ pub(super) fn check(scene: &Scene) -> Result<()> {
 fn bytes(scene: &Scene) -> f64 {
     let entries =
         scene.loads.len() + scene.moments.len() + scene.probes.len() + scene.defects.len();
-    let eyes = |defect: &Defect| scene.rows[defect.row].ball_count as f64;
+    let balls = |defect: &Defect| scene.rows[defect.row].ball_count as f64;
     COPIES * (8.0 * numbers(scene) as f64 + ENTRY * entries as f64)
-        + EYE * scene.defects.values().map(eyes).sum::<f64>()
+        + WATCHED_BALL * scene.defects.values().map(balls).sum::<f64>()
         + BALL
             * scene
                 .rows

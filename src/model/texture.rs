@@ -82,7 +82,7 @@ impl Model {
         torus.a + race.sigma() * torus.r * self.scene.rows[row].contact_angle.cos()
     }
 
-    /// Tells pits how wide contacts are under the typical load.
+    /// Gives pits the widths of contacts under the typical load.
     pub(crate) fn widen_pits(&mut self) {
         for row in 0..self.rows.len() {
             let widths = self.typical_widths(row);

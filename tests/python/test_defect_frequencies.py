@@ -257,7 +257,7 @@ def test_two_defects_give_both_families() -> None:
     check_family(found, bpfi, measured, (1, 2, 3), offset=SHAFT)
 
 
-def test_a_ball_defect_across_both_tracks_speaks_twice_a_turn() -> None:
+def test_a_ball_defect_across_both_tracks_strikes_twice_a_turn() -> None:
     found = run("6205 both_tracks", 0.6)
     check_operating_angle(found)
     ((order, measured),) = ball_lines(found, (1,))

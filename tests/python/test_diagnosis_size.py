@@ -231,7 +231,7 @@ def test_healthy_bearings_of_the_library_are_accused_at_the_rate_asked_for() -> 
     assert accused <= 1.5 * 0.01 * len(rows)
 
 
-def test_a_ratio_speaks_for_what_is_there() -> None:
+def test_a_ratio_favours_what_is_there() -> None:
     found = br.diagnose(passes("outer_race", 0.3), "6205", RPM, fs=FS)
     ratios = {part: one.ratio for part, one in found.evidence.items()}
     assert ratios["cage"] is None

@@ -188,7 +188,7 @@ fn levels_agree_over_whole_runs() {
     }
 }
 
-/// Tells the log which levels were tested and which this machine lacks; `tests/run` shows it.
+/// Prints which levels were tested and which this machine lacks; `tests/run` shows it.
 #[test]
 fn levels_of_this_machine() {
     let here: Vec<&str> = InstructionSet::available()
