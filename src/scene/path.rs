@@ -88,6 +88,7 @@ pub(super) fn show_absent(scene: &mut Value) {
     }
     show(&["loads", ALL], &["at"]);
     show(&["unbalances", ALL], &["axial_position"]);
+    show(&["defects", ALL], &["shape", "walls"]);
     if let Some(scene) = scene.as_object_mut() {
         for part in ["moments", "table_forces"] {
             scene.entry(part).or_insert_with(|| json!({}));
@@ -201,6 +202,7 @@ fn a_new_one(path: &str, key: &str) -> Option<String> {
 mod tests {
     use crate::Scene;
     use crate::base::error::Error;
+    use crate::scene::{Defect, DefectShape, Surface, Walls, presets};
 
     /// Path and value that a document is refused by.
     fn refused(toml: &str) -> (String, String) {
@@ -223,6 +225,22 @@ mod tests {
         assert_eq!(place("loads.'a[0]'.x = 5"), r#"loads."a[0]".x = 5"#);
         assert_eq!(place(r#""\u001b" = 6"#), r#""\u{1b}" = 6"#);
         assert_eq!(place("Größe-1 = 7"), "scene = not TOML");
+    }
+
+    /// Golden: the names of a defect's fields in a document.
+    #[test]
+    fn shape_and_walls_of_a_defect_are_set_by_their_paths() {
+        let mut scene = presets::deep_groove_6205(500.0, 0.0, 1797.0);
+        let defect = Defect::new(Surface::OuterRace, -1.57, 1e-3, 2e-3, 0.0);
+        scene.defects.insert("spall".to_owned(), defect.clone());
+        let walled = scene.with(&[("defects.spall.walls", "steep".into())]);
+        assert_eq!(walled.unwrap().defects["spall"].walls, Some(Walls::Steep));
+        let round = [
+            ("defects.spall.shape", "pit".into()),
+            ("defects.spall.length", 0.0.into()),
+        ];
+        let pitted = scene.with(&round).unwrap();
+        assert_eq!(pitted.defects["spall"].shape, Some(DefectShape::Pit));
     }
 
     #[test]

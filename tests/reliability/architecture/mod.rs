@@ -1,10 +1,11 @@
 //! The modules keep their order: who may use whom, by path, by group, by re-export or by an inherent impl; and `pyo3` only under
 //! `src/python`. What is public has no type
 //! of the libraries beneath (`public`), files of a room name each other one way (`circles`), and functions and
-//! files are short (`length`). A type name is declared once (`names`).
+//! files are short (`length`). What documents leave out is found by its path (`left_out`). A type name is declared once (`names`).
 
 mod circles;
 mod interface;
+mod left_out;
 mod length;
 mod names;
 mod public;
