@@ -25,15 +25,12 @@ impl Dynamics<'_> {
         let oil = model
             .is_lubricated()
             .then_some(("oil film", Use::Evaluated));
-        let forces = forces::ALL.map(|force| (force.name(), force.used(model)));
-        // What few scenes have is not listed among what is left out.
-        let rare = |name: &str| ["drag", "ring forces"].contains(&name);
-        contacts
-            .into_iter()
-            .chain(oil)
-            .chain(forces)
-            .filter(|(name, used)| !rare(name) || *used != Use::Absent)
-            .collect()
+        let forces = forces::ALL.into_iter().filter_map(|force| {
+            let used = force.used(model);
+            let is_listed = !force.is_rare() || used != Use::Absent;
+            is_listed.then_some((force.name(), used))
+        });
+        contacts.into_iter().chain(oil).chain(forces).collect()
     }
 
     /// The rows whose contacts have a part in the motion.

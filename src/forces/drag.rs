@@ -16,6 +16,10 @@ impl Force for Drag {
         "friction"
     }
 
+    fn is_rare(&self) -> bool {
+        true
+    }
+
     fn used(&self, model: &Model) -> Use {
         Use::evaluated(model.rows.iter().any(|row| row.drag > 0.0))
     }

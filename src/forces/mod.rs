@@ -49,6 +49,11 @@ pub(crate) trait Force: Debug + Sync {
         self.name()
     }
 
+    /// Whether few scenes have it: an explanation does not list it among what is absent.
+    fn is_rare(&self) -> bool {
+        false
+    }
+
     /// What becomes of it in a run.
     fn used(&self, model: &Model) -> Use;
 

@@ -19,6 +19,10 @@ impl Force for Outside {
         "load"
     }
 
+    fn is_rare(&self) -> bool {
+        true
+    }
+
     fn used(&self, model: &Model) -> Use {
         Use::evaluated(acts(model))
     }
