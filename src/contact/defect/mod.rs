@@ -16,7 +16,7 @@ use std::f64::consts::PI;
 use nalgebra::Vector3;
 
 use super::{Motion, V2, wrapped};
-use crate::scene::{Defect, Width};
+use crate::scene::{Defect, Floor, Width};
 use cap::{Cap, Lost, Rim};
 
 /// How rotations of a ball move what is not its own along a slice: only about the ring's axis.
@@ -66,7 +66,7 @@ impl SurfaceDefect {
             floor: defect
                 .floor
                 .as_ref()
-                .map(|floor| (floor.depth, floor.elements)),
+                .map(|&Floor { depth, elements }| (depth, elements)),
             reach: MARGIN * defect.width.largest() / (2.0 * radius),
             width: defect.width.clone(),
             cap: None,

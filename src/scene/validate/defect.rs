@@ -7,7 +7,7 @@ use super::check::{below, finite, positive, within};
 use super::race::limits;
 use crate::base::error::{Error, Result};
 use crate::base::quantities;
-use crate::scene::{Defect, Row, Scene, Surface, Width};
+use crate::scene::{Defect, Floor, Row, Scene, Surface, Width};
 
 pub(super) fn defect(scene: &Scene, path: &str, defect: &Defect) -> Result<()> {
     let at = |field: &str| format!("{path}.{field}");
@@ -63,14 +63,10 @@ pub(super) fn defect(scene: &Scene, path: &str, defect: &Defect) -> Result<()> {
         }
         (surface, None) => on_race(path, row, defect, surface == Surface::OuterRace)?,
     }
-    if let Some(floor) = &defect.floor {
-        within(&at("floor.depth"), floor.depth, 0.0..=radius / 2.0, "m")?;
-        if !(1..=1000).contains(&floor.elements) {
-            return Err(Error::scene(
-                at("floor.elements"),
-                floor.elements,
-                "1 to 1000",
-            ));
+    if let Some(Floor { depth, elements }) = &defect.floor {
+        within(&at("floor.depth"), *depth, 0.0..=radius / 2.0, "m")?;
+        if !(1..=1000).contains(elements) {
+            return Err(Error::scene(at("floor.elements"), elements, "1 to 1000"));
         }
     }
     Ok(())
