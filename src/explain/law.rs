@@ -51,13 +51,10 @@ pub(super) fn of(model: &Model, at_start: &Equilibrium) -> Option<LawExplanation
 
 impl fmt::Display for LawExplanation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let name = match self.law {
-            NormalLaw::Hertz => "Hertz's point contact",
-            NormalLaw::Iso16281 { .. } => "roller slices after ISO/TS 16281, the paper's law",
-        };
         write!(
             f,
-            "{name}: under {:.0} N, the largest load, {} deflects by {:.2} µm",
+            "{}: under {:.0} N, the largest load, {} deflects by {:.2} µm",
+            self.law.description(),
             self.load,
             self.contact,
             1e6 * self.approach

@@ -5,7 +5,7 @@ use super::scales::Bottom;
 use super::{BodyId, Dof, Model, Race};
 use crate::base::error::{Error, Result};
 use crate::contact::film::{self, Effects, Film, Oil, Reference};
-use crate::contact::{Elastic, Oiled, Pair};
+use crate::contact::{Oiled, Pair};
 use crate::scene::{Lubricant, Row};
 
 impl Model {
@@ -134,10 +134,8 @@ impl Model {
     /// Approach under a load \[N\] by the scene's own law, and half of the zone's length there \[m\].
     fn reference_zone(&self, row: usize, pair: &Pair, load: f64) -> (f64, f64) {
         let ball = &self.balls[self.rows[row].first].side;
-        let approach = match &pair.law.elastic {
-            Elastic::Hertz(law) => law.approach(load),
-            Elastic::Iso16281(_) => Bottom::new(pair, ball).approach(load),
-        };
+        let at_bottom = || Bottom::new(pair, ball).approach(load);
+        let approach = pair.law.elastic.approach(load).unwrap_or_else(at_bottom);
         (approach, pair.half_zone(ball.radius, approach))
     }
 }

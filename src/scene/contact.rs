@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::numbers::{BoundedNumber, NumberRange};
+
 /// Contact of a ball and a race: elastic law, slices, damping.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -61,6 +63,38 @@ impl NormalLaw {
         Self::Iso16281 {
             constant: iso_constant(),
             length_ratio: iso_length_ratio(),
+        }
+    }
+
+    /// What it is, in an explanation.
+    pub(crate) fn description(&self) -> &'static str {
+        match self {
+            Self::Iso16281 { .. } => "roller slices after ISO/TS 16281, the paper's law",
+            Self::Hertz => "Hertz's point contact",
+        }
+    }
+
+    /// Its numbers, each by its path in the law.
+    pub(super) fn numbers(&self) -> Vec<BoundedNumber> {
+        match *self {
+            Self::Iso16281 {
+                constant,
+                length_ratio,
+            } => vec![
+                BoundedNumber {
+                    field: "iso16281.constant",
+                    value: constant,
+                    range: NumberRange::Within(1.0..=1e16),
+                    unit: "",
+                },
+                BoundedNumber {
+                    field: "iso16281.length_ratio",
+                    value: length_ratio,
+                    range: NumberRange::Within(1e-3..=10.0),
+                    unit: "",
+                },
+            ],
+            Self::Hertz => Vec::new(),
         }
     }
 }

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Scene;
-use super::bearing::{Mount, RingName};
+use super::ring::{Mount, RingName};
 use super::time::TimeFunction;
 use crate::base::error::{Error, Result};
 

@@ -26,12 +26,14 @@ mod fault_lines;
 mod load;
 mod lubricant;
 mod material;
+mod numbers;
 mod oils;
 mod path;
 mod points;
 pub mod presets;
 mod probe;
 mod recorded;
+mod ring;
 mod ring_force;
 mod solver;
 mod spin;
@@ -51,9 +53,7 @@ use crate::base::memory;
 
 pub(crate) use antiderivative::Antiderivative;
 pub use approximations::Approximations;
-pub use bearing::{
-    CoupledSupport, GothicArch, Mount, RaceProfile, Ring, RingName, Row, Support, Waviness,
-};
+pub use bearing::{GothicArch, RaceProfile, Row, Waviness};
 pub use contact::{Cage, Contact, Friction, NormalLaw, Slices};
 pub use defect::{AxialOffset, Defect, DefectShape, Floor, Surface, Walls, Width, WidthProfile};
 pub(crate) use document::interpret;
@@ -66,6 +66,7 @@ pub use material::{Material, Materials};
 pub(crate) use oils::CENTISTOKE;
 pub use oils::{Base, NAMED_OILS, NamedOil, OilSheet, OilSource, Sourced, named_oil};
 pub use probe::{Component, ContactQuantity, Probe};
+pub use ring::{CoupledSupport, Mount, Ring, RingName, Support};
 pub use ring_force::{RingForce, RingForces, RingMotion};
 /// What [`Scene::with`] sets a field to: a number, a text, a list or a document of JSON.
 pub use serde_json::Value;

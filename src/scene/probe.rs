@@ -5,7 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::bearing::RingName;
+use super::ring::RingName;
 
 /// A named set of signals.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

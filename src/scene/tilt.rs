@@ -1,6 +1,6 @@
 //! Rings that tilt: which may, their components of motion, and the approximations that they exclude.
 
-use super::bearing::{Mount, Ring, Support};
+use super::ring::{Mount, Ring, Support};
 use super::{Approximations, Component, Scene};
 use crate::base::error::{Error, Result};
 

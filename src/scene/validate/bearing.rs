@@ -143,16 +143,7 @@ pub(super) fn ring(scene: &Scene, name: RingName) -> Result<()> {
         RingName::Inner => ("inner_ring", &scene.inner_ring, false, Mount::Free),
     };
     let at = |field: &str| format!("{path}.{field}");
-    for (field, value, unit) in [
-        ("mass", ring.mass, "kg"),
-        ("inertia", ring.inertia, "kg m²"),
-        ("diameter", ring.diameter, "m"),
-        ("width", ring.width, "m"),
-    ] {
-        if let Some(value) = value {
-            check::up_to(&at(field), value, 1e9, unit)?;
-        }
-    }
+    check::numbers(path, ring.numbers())?;
     if let Some(diameter) = ring.diameter {
         for (i, row) in scene.rows.iter().enumerate() {
             let (dm, d) = (row.pitch_diameter, row.ball_diameter);

@@ -5,6 +5,7 @@ use std::ops::RangeInclusive;
 use crate::base::error::{Error, Result};
 use crate::base::quantities;
 use crate::scene::Mount;
+use crate::scene::numbers::{BoundedNumber, NumberRange};
 use crate::scene::path::shown;
 
 pub(super) fn finite(path: &str, value: f64) -> Result<()> {
@@ -56,6 +57,17 @@ pub(super) fn within(path: &str, value: f64, range: RangeInclusive<f64>, unit: &
         _ => format!("from {from} to {to} {unit}"),
     };
     Err(Error::scene(path, value, allowed))
+}
+
+/// Of the numbers of a part.
+pub(super) fn numbers(path: &str, of: impl IntoIterator<Item = BoundedNumber>) -> Result<()> {
+    of.into_iter().try_for_each(|number| {
+        let path = format!("{path}.{}", number.field);
+        match number.range {
+            NumberRange::Within(range) => within(&path, number.value, range, number.unit),
+            NumberRange::UpTo(most) => up_to(&path, number.value, most, number.unit),
+        }
+    })
 }
 
 /// Of a place of a bearing or its shaft \[m\].

@@ -1,9 +1,9 @@
 //! Materials, normal law and friction.
 
-use super::check::{positive, within};
+use super::check::{numbers, positive, within};
 use crate::base::error::{Error, Result};
 use crate::scene::contact::extreme_slip;
-use crate::scene::{Contact, Friction, Material, Materials, NormalLaw, Row, Slices};
+use crate::scene::{Contact, Friction, Material, Materials, Row, Slices};
 
 pub(super) fn materials(materials: &Materials) -> Result<()> {
     material("materials.rings", &materials.rings)?;
@@ -44,17 +44,7 @@ fn material(path: &str, material: &Material) -> Result<()> {
 
 pub(super) fn contact(path: &str, contact: &Contact) -> Result<()> {
     let at = |field: &str| format!("{path}.{field}");
-    match contact.law {
-        NormalLaw::Iso16281 {
-            constant,
-            length_ratio,
-        } => {
-            within(&at("law.iso16281.constant"), constant, 1.0..=1e16, "")?;
-            let path = at("law.iso16281.length_ratio");
-            within(&path, length_ratio, 1e-3..=10.0, "")?;
-        }
-        NormalLaw::Hertz => {}
-    }
+    numbers(&at("law"), contact.law.numbers())?;
     match contact.slices {
         Slices::Fixed(n) if !(10..=100_000).contains(&n) => {
             Err(Error::scene(at("slices.fixed"), n, "10 to 100000"))

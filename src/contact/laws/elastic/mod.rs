@@ -82,6 +82,14 @@ impl Elastic {
         }
     }
 
+    /// Approach of ball and race under a load ≥ 0 \[N\], where the law has it in closed form \[m\].
+    pub(crate) fn approach(&self, load: f64) -> Option<f64> {
+        match self {
+            Self::Iso16281(_) => None,
+            Self::Hertz(law) => Some(law.approach(load)),
+        }
+    }
+
     /// What it is called.
     pub(crate) fn name(&self) -> &'static str {
         match self {
