@@ -259,12 +259,12 @@ impl ContactQuantity {
 
     /// Name as in columns, and unit.
     pub fn label(self) -> (&'static str, &'static str) {
-        [
-            ("load", "N"),
-            ("angle", "rad"),
-            ("zone_centre", "m"),
-            ("zone_width", "m"),
-            ("slip", "m/s"),
-        ][self as usize]
+        match self {
+            Self::Load => ("load", "N"),
+            Self::Angle => ("angle", "rad"),
+            Self::ZoneCentre => ("zone_centre", "m"),
+            Self::ZoneWidth => ("zone_width", "m"),
+            Self::Slip => ("slip", "m/s"),
+        }
     }
 }
