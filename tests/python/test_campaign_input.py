@@ -77,6 +77,9 @@ def test_an_option_that_one_row_cannot_meet(tmp_path: Path) -> None:
         ("ball_diametr", "rows[0].ball_diameter"),
         ("durations", "duration"),
         ("maxsteps", "max_steps"),
+        ("speed_rpm", "drive.speed [rad/s]"),
+        ("rpm", "drive.speed [rad/s]"),
+        ("spall_width_mm", "defects.spall.width [m]"),
     ],
 )
 def test_a_label_that_resembles_a_field_is_warned_of(

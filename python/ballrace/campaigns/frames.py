@@ -9,6 +9,9 @@ from typing import Any
 
 from ..errors import SceneError
 
+_OTHER_UNITS = {"rpm": ("speed", "rad/s"), "mm": (None, "m"), "c": (None, "K")}
+"""Endings of names in another unit than the field: the quantity that the ending alone says, the field's unit."""
+
 
 def rows_of(table: object) -> tuple[list[dict[str, Any]], list[str]]:
     """Return the rows of a table of any kind, and the names of its columns.
@@ -61,8 +64,14 @@ def resembling(label: str, scenes: Iterable[Any], arguments: Iterable[str]) -> s
     """Return the field or argument that a column may have been meant for, such as ``loads.axial.force``.
 
     A name resembles a field whose last word it is, or whose path has all its words (``axial_load``,
-    ``radial_force``), or that it is a misspelling of.
+    ``radial_force``), or that it is a misspelling of. One in another unit (``speed_rpm``) is answered with the
+    unit of the field.
     """
+    head, _, ending = label.lower().rpartition("_")
+    if ending in _OTHER_UNITS:
+        quantity, unit = _OTHER_UNITS[ending]
+        field = resembling(head or quantity or "", scenes, ())
+        return field and f"{field} [{unit}]"
     # A load is meant by its force rather than by the ring it acts on.
     found = [pair for scene in scenes for pair in _fields(scene, "")]
     paths = [path for path, _ in sorted(found, key=lambda pair: not _is_number(pair[1]))]
