@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -57,6 +58,24 @@ def test_wrong_arguments_are_refused_before_anything_is_written(
     with pytest.raises(br.SceneError) as caught:
         run(table(2), tmp_path / "runs", **options)
     assert message in str(caught.value)
+    assert not (tmp_path / "runs").exists()
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ("cases.csv", "cases = 'cases.csv': a table: polars, pandas"),
+        (Path("cases.csv"), "polars.read_csv(path) reads a file"),
+        (np.zeros((3, 2)), "cases = a ndarray without names of columns: a table"),
+        ([500.0, 1000.0], "cases = a list without names of columns: a table"),
+    ],
+)
+def test_what_has_no_names_of_columns_is_no_table(
+    given: object, message: str, tmp_path: Path
+) -> None:
+    """Else the letters of a path, or plain numbers, are cases that change nothing."""
+    with pytest.raises(br.SceneError, match=re.escape(message)):
+        run(given, tmp_path / "runs")
     assert not (tmp_path / "runs").exists()
 
 
