@@ -16,6 +16,7 @@ import numpy as np
 import pytest
 
 import ballrace as br
+from ballrace.diagnosis.lacking import unexplained
 from ballrace.diagnosis.null import largest_z, null_orders, probability
 from ballrace.diagnosis.severity import zone_of
 from ballrace.diagnosis.strength import limits_of
@@ -312,12 +313,46 @@ def test_likelihood_decides_where_chance_leaves_doubt() -> None:
     } == {"undecided"}
 
 
+def test_lines_that_may_be_those_of_a_healthy_race_are_not_said_to_be_chance() -> None:
+    """Of 12 balls of 6 mm on 30 mm 2·BSF is BPFO: faint lines of the race are theirs, too."""
+    x = noise(blows(ORDERS.bpfo, duration=4.0), 0.05)
+    evidence = judged(0.1 * x / x.std(), unit="m/s^2").evidence
+    limits = limits_of(math.pi * br.catalogue["6205"].pitch_diameter * SHAFT)
+    ball = replace(evidence["outer_race"], part="ball", probability=2e-5, ratio=0.01)
+
+    def why(*own: Part, chance: float = 2e-5) -> str:
+        given = dict(evidence) | {"ball": replace(ball, probability=chance)}
+        return decided(
+            given, own, 0.01, strong=(), limits=limits, silent=False, impacts=None, wanting=()
+        ).why
+
+    told = why("outer_race")
+    assert "0.0020 % of records, but may be those of the outer race, which are higher" in told
+    assert "too often to call it damaged" in why("outer_race", chance=0.02)
+
+
 def test_impacts_at_no_rate_of_the_bearing_leave_it_open() -> None:
     """A speed that is 3 % off, and the rate of no part: neither accuses, neither clears."""
     for x, rpm in ((blows(ORDERS.bpfi, 1.0), 1.03 * RPM), (blows(4.31), RPM)):
         found = judged(noise(x, 0.02), rpm=rpm)
         assert found.verdict == "undecided"
-        assert "impacts stand out" in found.why
+        assert "the right bearing, or a longer record: impacts stand out" in found.why
+
+
+def test_what_is_asked_for_where_impacts_stand_out() -> None:
+    """A run's own bearing and speed are exact; a damaged ball comes to the load once in a turn of the cage."""
+    x = noise(blows(4.31), 0.02)
+    known = unexplained(57.4, exact=True, cage=False)
+    assert known == (
+        "a longer record: impacts stand out (kurtosis 57), but at no rate of this bearing"
+    )
+    asked = unexplained(57.4, exact=False, cage=False)
+    assert asked == f"the exact speed, the right bearing, or {known}"
+    assert judged(x).why.startswith("the exact speed, the right bearing, or a longer record")
+    assert unexplained(None, exact=True, cage=True) is None
+    at_cage = judged(noise(blows(ORDERS.ftf, duration=8.0), 0.02))
+    assert at_cage.evidence["cage"].probability < 0.01
+    assert "only at the cage's rate, as a damaged ball may have" in at_cage.why
 
 
 def test_an_order_next_to_a_whole_one_needs_turns() -> None:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from ..channel import Channel
     from .kinematics import Kinematics
 
-__all__ = ["HELD", "lack_of", "notes_of", "wanting_of"]
+__all__ = ["HELD", "lack_of", "notes_of", "unexplained", "wanting_of"]
 
 _TURNS = 20.0
 """Turns of the shaft below which the running median under a line has too few bins for a null."""
@@ -59,6 +59,31 @@ def wanting_of(channel: Channel, shaft: float, kinematics: Kinematics, within: f
             f"an acceleration: this is a velocity in {channel.unit}, in which ringing after impacts is weak"
         )
     return found
+
+
+def unexplained(kurtosis: float | None, *, exact: bool, cage: bool) -> str | None:
+    """Say what would explain impacts that are no race's or ball's; None where there are none.
+
+    Parameters
+    ----------
+    kurtosis : float or None
+        Of the band where impacts stand out; None where none do.
+    exact : bool
+        Whether bearing and speed are a run's own, so that only a longer record is left.
+    cage : bool
+        Whether the cage's lines stand out: a damaged ball meets the load zone once in its turn.
+    """
+    if kurtosis is None:
+        return None
+    needed = (
+        "a longer record" if exact else "the exact speed, the right bearing, or a longer record"
+    )
+    at = (
+        "only at the cage's rate, as a damaged ball may have"
+        if cage
+        else "at no rate of this bearing"
+    )
+    return f"{needed}: impacts stand out (kurtosis {kurtosis:.0f}), but {at}"
 
 
 def _unclipped(x: NDArray[np.float64]) -> list[str]:

@@ -18,7 +18,7 @@ from .arguments import (
     other_rates,
 )
 from .examined import bands_for, examined
-from .lacking import lack_of, notes_of, wanting_of
+from .lacking import lack_of, notes_of, unexplained, wanting_of
 from .likelihood import at_any_size, strongest, with_ratios
 from .null import ACCUSED, largest_z
 from .result import Diagnosis
@@ -158,6 +158,7 @@ def diagnose(
     kinematics, nominal = known_bearing(channel, bearing, row or 0, speed_rpm, outer_rpm)
     given = speed_rpm is not None or outer_rpm is not None
     within = known_within(channel, given=given, speed_within=speed_within)
+    exact = within == 0.0 and channel.scene is not None and bearing is None
     orders, rates = other_rates(exclude, mains)
     machine = checked_machine(machine)
     shaft = ShaftRate(rate=nominal, nominal=nominal, by="nominal", z=0.0)
@@ -182,9 +183,11 @@ def diagnose(
         and at_any_size(evidence[part].strength.acceleration, diameter, shaft.rate)
         > strongest(evidence[part].role)
     ]
+    kurtosis = found.envelopes.impacts(limits.faint if limits else 0.0)
+    cage = evidence["cage"].probability < false_alarm
     verdict = decided(
         evidence, own, false_alarm, strong=strong, limits=limits, silent=not has_background(channel.x),
-        impacts=found.envelopes.impacts(limits.faint if limits else 0.0),
+        impacts=unexplained(kurtosis, exact=exact, cage=cage),
         wanting=wanting_of(channel, shaft.rate, kinematics, within),
     )  # fmt: skip
     deciding = bands.index(max((evidence[part] for part in ACCUSED), key=lambda one: one.z).band)

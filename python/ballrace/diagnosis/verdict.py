@@ -79,7 +79,7 @@ def decided(
     strong: Sequence[Part],
     limits: Limits | None,
     silent: bool,
-    impacts: float | None,
+    impacts: str | None,
     wanting: Sequence[str],
 ) -> Verdict:
     """Return the verdict.
@@ -98,8 +98,8 @@ def decided(
         Accelerations by which lines are judged; None where their strength is not known.
     silent : bool
         Whether the record has no background, as simulated ones have none.
-    impacts : float or None
-        Kurtosis of the band where impacts stand out; None where none do.
+    impacts : str or None
+        What would explain impacts that stand out; None where none do.
     wanting : sequence of str
         What the record lacks for a statement that nothing is damaged.
     """
@@ -127,11 +127,12 @@ def decided(
     for one in likelier:
         if _not_sure(one, limits, silent) is None:
             return Verdict(verdict="damaged", parts=(one.part,), why=_supported(one))
-    unexplained = [] if own or impacts is None else [_impacts(impacts)]
+    unexplained = [] if own or impacts is None else [impacts]
     likely = [one for one in ranked if one.part not in own and _is_likely(one)]
     needs = [
-        *filter(None, open_.values()), *map(_doubt, doubted), *map(_hidden, filter(_is_hidden, ranked)),
-        *unexplained, *wanting, *map(_likely, likely),
+        *filter(None, open_.values()),
+        *(_doubt(one, own, false_alarm) for one in doubted),
+        *map(_hidden, filter(_is_hidden, ranked)), *unexplained, *wanting, *map(_likely, likely),
     ]  # fmt: skip
     if needs:
         return Verdict(verdict="undecided", parts=(), why=needs[0])
@@ -240,13 +241,6 @@ def _of_no_size(one: Evidence) -> str:
     )
 
 
-def _impacts(kurtosis: float) -> str:
-    return (
-        f"the exact speed, the right bearing, or a longer record: impacts stand out (kurtosis {kurtosis:.0f}), "
-        "but at no rate of this bearing"
-    )
-
-
 def _faint(one: Evidence, faint: float) -> str:
     return (
         f"lines of the {NAMES[one.part]} are there, but carry {one.strength.acceleration:.2g} m/s² where damage "
@@ -261,7 +255,12 @@ def _percent(one: Evidence) -> str:
     return f"{share:.{max(0, 1 - math.floor(math.log10(share)))}f} %"
 
 
-def _doubt(one: Evidence) -> str:
+def _doubt(one: Evidence, own: Sequence[Part], false_alarm: float) -> str:
+    if own and one.probability < false_alarm:
+        return (
+            f"a record from when it was new: lines of the {NAMES[one.part]} stand out, as by chance in "
+            f"{_percent(one)} of records, but may be those of the {NAMES[own[0]]}, which are higher"
+        )
     return (
         f"another or a longer record: lines of the {NAMES[one.part]} come by chance in {_percent(one)}, "
         "too often to call it damaged and too seldom to call it healthy"
