@@ -78,9 +78,9 @@ def test_the_sweep_of_the_guide(tmp_path: Path) -> None:
     [
         ("scene = 3 =", "sweep = "),
         ('scene = "deep-groove-6205"', "cases = absent: at least one of table, grid"),
-        ("[grid]\na = [1]", "scene = absent: one of both"),
+        ("[grid]\na = [1]", "scene = absent, as is scenes: either scene, a name or a file"),
         ('scene = "x.txt"\n[grid]\na = [1]', "a file that ends in .toml or .json"),
-        ('scenes = { a = "wheel-bearing" }\nscene = "a"', "scene = beside scenes: one of both"),
+        ('scenes = { a = "wheel-bearing" }\nscene = "a"', "scene = given beside scenes: either scene"),
         ('scene = "wheel-bearing"\nduration.start = 1\n[grid]\na = [1]', "duration = {'start': 1}: a number"),
         ('colums = ["outer.ay"]', "colums = an entry of the sweep: one of scene"),
         ('scene = "wheel-bearing"\ntable = "a.xlsx"', "a file that ends in .csv or .parquet"),

@@ -175,9 +175,8 @@ def read(path: Path) -> dict[str, Any]:
 
 def _scene(sweep: dict[str, Any], folder: Path) -> Scene | dict[str, Scene]:
     if ("scene" in sweep) == ("scenes" in sweep):
-        raise SceneError(
-            "scene", "absent" if "scene" not in sweep else "beside scenes", "one of both"
-        )
+        value = "absent, as is scenes" if "scene" not in sweep else "given beside scenes"
+        raise SceneError("scene", value, "either scene, a name or a file, or several in [scenes]")
     if "scene" in sweep:
         return _load("scene", sweep["scene"], folder)
     scenes = sweep["scenes"]
