@@ -329,6 +329,23 @@ def test_one_row_of_several_cases(wheel: br.Scene) -> None:
     assert [(t.name, t.line.dash) for t in fig.data] == [("a", "solid"), ("b", "dash")]
 
 
+def test_cases_at_random_are_points_and_those_of_a_grid_cells() -> None:
+    """Truth: a Latin hypercube has no two cases with the same value: most cells of its grid are empty."""
+    random = br.latin_hypercube({"a": (0.0, 1.0), "b": (10.0, 20.0)}, 30, seed=1)
+    random = random.with_columns(c=pl.col("a") * pl.col("b"))
+    (points,) = plot.campaign_map(random, "a", "b", "c", logarithmic=True).data
+    assert (points.type, points.mode) == ("scatter", "markers")
+    order = np.lexsort((points.y, points.x))
+    expected = random.sort("a")
+    np.testing.assert_allclose(np.array(points.x)[order], expected["a"])
+    shades = np.array(points.marker.color)[order]
+    np.testing.assert_allclose(shades, np.log10(expected["c"]))
+    grid = pl.DataFrame({"a": [1.0, 2.0, 1.0], "b": [1.0, 1.0, 2.0], "c": [3.0, 4.0, 5.0]})
+    (cells,) = plot.campaign_map(grid, "a", "b", "c").data
+    assert cells.type == "heatmap"
+    assert [list(line) for line in cells.text] == [["3", "4"], ["5", "–"]]
+
+
 def test_bad_arguments_are_named(faulty: br.Signals, animated: br.Signals, wheel: br.Scene) -> None:
     x = faulty["outer.ay"]
     calls: dict[str, Callable[[], object]] = {

@@ -244,7 +244,7 @@ def _of_no_size(one: Evidence) -> str:
 def _faint(one: Evidence, faint: float) -> str:
     return (
         f"lines of the {NAMES[one.part]} are there, but carry {one.strength.acceleration:.2g} m/s² where damage "
-        f"has more than {faint:.2g}: a loaded healthy bearing has such lines, too"
+        f"has more than {faint:.2g}, if the record's unit is right: a loaded healthy bearing has such lines, too"
     )
 
 

@@ -15,6 +15,7 @@ from .style import COLOURS, MARKERS, finished, wrapped
 if TYPE_CHECKING:
     import plotly.graph_objects as go
     import polars as pl
+    from numpy.typing import NDArray
 
     from ..campaigns import Campaign
 
@@ -31,14 +32,16 @@ def campaign_map(
     fig: go.Figure | None = None,
     **layout: Any,
 ) -> go.Figure:
-    """Draw a feature of a campaign over two of its parameters; a cell is the mean of its cases.
+    """Draw a feature of a campaign over two of its parameters: a cell, or a point, is the mean of its cases.
+
+    Tables whose cells are mostly empty, such as those drawn at random, are points.
 
     Parameters
     ----------
     done : Campaign or DataFrame
         A campaign, or its manifest.
     x, y : str
-        Columns of parameters, with a few values each.
+        Columns of parameters.
     value : str
         Column of the feature.
     logarithmic : bool
@@ -61,37 +64,63 @@ def campaign_map(
     >>> fig.data[0].z.tolist()
     [[3.0, 4.0]]
     """
-    from .._plotly import Figure, Heatmap
+    from .._plotly import Figure
     from .._polars import pl
 
     table = _table(done, (x, y, value)).drop_nulls([x, y, value])
     mean = table.group_by(x, y).agg(pl.col(value).mean())
-    across, up = (np.unique(mean[name].to_numpy()) for name in (x, y))
-    z = np.full((up.size, across.size), np.nan)
-    places = (np.searchsorted(a, mean[name].to_numpy()) for a, name in ((up, y), (across, x)))
-    z[tuple(places)] = mean[value].to_numpy()
-    shown = np.log10(np.where(z > 0.0, z, np.nan)) if logarithmic else z
     fig = fig if fig is not None else Figure()
     quantity = feature(value)
     named = f"log₁₀ of {quantity}" if logarithmic else quantity
-    few = z.size <= 64
-    labels = [["–" if np.isnan(v) else f"{v:.3g}" for v in line] for line in z]
-    fig.add_trace(
-        Heatmap(
-            x=[f"{v:.6g}" for v in across], y=[f"{v:.6g}" for v in up], z=shown, colorscale=SHADES,
-            text=labels, colorbar={"thickness": 14},
-            texttemplate="%{text}" if few else None,
-            hovertemplate=f"{x} %{{x}}, {y} %{{y}}: %{{text}}<extra></extra>",
-        )
-    )  # fmt: skip
-    fig.update_xaxes(title_text=parameter(x), type="category")
-    fig.update_yaxes(title_text=parameter(y), type="category")
+    cells = mean[x].n_unique() * mean[y].n_unique()
+    drawn = _points if 2 * mean.height < cells else _cells
+    fig.add_trace(drawn(mean, (x, y, value), logarithmic))
+    axis = {} if drawn is _points else {"type": "category"}
+    fig.update_xaxes(title_text=parameter(x), **axis)
+    fig.update_yaxes(title_text=parameter(y), **axis)
     # Beside the bar there is no room for so many words.
     fig.add_annotation(
         text=wrapped(named, _LINE), x=0.0, y=1.02, xref="x domain", yref="y domain", xanchor="left",
         yanchor="bottom", align="left", showarrow=False,
     )  # fmt: skip
     return finished(fig, layout, height=440, margin={"t": 64 + 24 * ("title" in layout)})
+
+
+def _shades(values: NDArray[np.float64], logarithmic: bool) -> NDArray[np.float64]:
+    return np.log10(np.where(values > 0.0, values, np.nan)) if logarithmic else values
+
+
+def _cells(mean: pl.DataFrame, columns: tuple[str, str, str], logarithmic: bool) -> go.Heatmap:
+    """Draw the cases of a grid."""
+    from .._plotly import Heatmap
+
+    x, y, value = columns
+    across, up = (np.unique(mean[name].to_numpy()) for name in (x, y))
+    z = np.full((up.size, across.size), np.nan)
+    places = (np.searchsorted(a, mean[name].to_numpy()) for a, name in ((up, y), (across, x)))
+    z[tuple(places)] = mean[value].to_numpy()
+    few = z.size <= 64
+    labels = [["–" if np.isnan(v) else f"{v:.3g}" for v in line] for line in z]
+    return Heatmap(
+        x=[f"{v:.6g}" for v in across], y=[f"{v:.6g}" for v in up], z=_shades(z, logarithmic),
+        colorscale=SHADES, text=labels, colorbar={"thickness": 14},
+        texttemplate="%{text}" if few else None,
+        hovertemplate=f"{x} %{{x}}, {y} %{{y}}: %{{text}}<extra></extra>",
+    )  # fmt: skip
+
+
+def _points(mean: pl.DataFrame, columns: tuple[str, str, str], logarithmic: bool) -> go.Scatter:
+    """Draw cases that are no grid."""
+    from .._plotly import Scatter
+
+    x, y, value = columns
+    shades = _shades(mean[value].to_numpy(), logarithmic)
+    marker = {"color": shades, "colorscale": SHADES, "colorbar": {"thickness": 14}, "size": 9}
+    return Scatter(
+        x=mean[x].to_numpy(), y=mean[y].to_numpy(), mode="markers", marker=marker,
+        text=[f"{v:.3g}" for v in mean[value]],
+        hovertemplate=f"{x} %{{x:.4g}}, {y} %{{y:.4g}}: %{{text}}<extra></extra>",
+    )  # fmt: skip
 
 
 def distribution(
