@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 
 import ballrace as br
-from ballrace.explore import beside, chosen, numbers, saved, sensor
+from ballrace.explore import at_rest, beside, chosen, saved, sensor
 from ballrace.explore.controls import controls, taken
 from ballrace.explore.live import Live, solved
 from ballrace.explore.picture import pictures
@@ -99,7 +99,7 @@ def test_what_is_no_one_number_has_no_control() -> None:
     assert made == {"axial_load", "moment", "temperature_c", "width_mm", "angle_deg", "noise"}
     live = answered(begun)
     assert live.rates[0].shaft == 1.0
-    assert "The speed changes" in numbers.page(live)
+    assert "The speed changes" in at_rest.page(live)
 
 
 @pytest.mark.parametrize("name", ["6205", "7208B", "3206", "618/5"])
@@ -141,22 +141,22 @@ def test_what_is_solved_is_what_the_functions_find(begun: Settings) -> None:
     assert live.equilibrium.outer_load == pytest.approx(br.equilibrium(healthy).outer_load)
     assert live.life is not None
     assert live.life.reference == pytest.approx(br.rating_life(healthy).reference)
-    shown = numbers.numbers(live)
+    shown = at_rest.numbers(live)
     assert shown["largest load"] == f"{live.equilibrium.outer_load.max():.0f} N"
     hours = live.life.hours(live.life.reference)
     assert hours is not None
     assert float(
         re.sub(r"[^\d]", "", shown["L₁₀ᵣ, ISO/TS 16281"].rpartition(", ")[2])
     ) == pytest.approx(hours, rel=1e-3)
-    assert f"{br.fault_frequencies(healthy).bpfo:.2f}" in numbers.page(live)
+    assert f"{br.fault_frequencies(healthy).bpfo:.2f}" in at_rest.page(live)
     assert "Λ" in shown[next(name for name in shown if name.startswith("oil film"))]
 
 
 def test_a_moment_tilts_the_ring_and_none_is_held(begun: Settings) -> None:
     held, tilted = answered(begun), answered(begun.moved(moment=3.0))
-    assert "moment that holds the rings parallel" in numbers.numbers(held)
+    assert "moment that holds the rings parallel" in at_rest.numbers(held)
     assert tilted.equilibrium.inner_tilt[0] > 0.0
-    assert "tilt about x, y" in numbers.numbers(tilted)
+    assert "tilt about x, y" in at_rest.numbers(tilted)
 
 
 def test_drawings_are_to_scale(begun: Settings) -> None:
@@ -186,7 +186,7 @@ def test_drawings_are_to_scale(begun: Settings) -> None:
 def test_a_drawing_shows_each_row_and_escapes_names() -> None:
     live = answered(Settings.of(br.presets.wheel_bearing().replace({"name": "<b>&"})))
     assert len(drawings(live)) == 5
-    ET.fromstring(numbers.page(live))
+    ET.fromstring(at_rest.page(live))
 
 
 def test_a_bearing_that_cannot_carry_its_load_says_so(begun: Settings) -> None:
@@ -194,7 +194,7 @@ def test_a_bearing_that_cannot_carry_its_load_says_so(begun: Settings) -> None:
         answered(begun.moved(radial_load=1e9))
     held = Settings.of(br.bearing("7208B"))
     assert answered(held).doubts == ()
-    assert "the rings come apart" in numbers.page(answered(held.moved(axial_load=0.0)))
+    assert "the rings come apart" in at_rest.page(answered(held.moved(axial_load=0.0)))
 
 
 def test_only_the_newest_run_ends(begun: Settings) -> None:

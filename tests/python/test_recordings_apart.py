@@ -228,6 +228,16 @@ def test_a_library_that_the_child_lacks_is_reported(
     apart.end_child()
 
 
+def test_a_program_within_the_package_reads(csv: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Truth: the page of ``explore`` has its folder first; ``report/signal.py`` is no library."""
+    folder = Path(apart.__file__).parents[1] / "report"
+    assert (folder / "signal.py").exists()
+    monkeypatch.syspath_prepend(folder)
+    apart.end_child()
+    assert br.read(csv).fs == br.read(csv, trusted=True).fs
+    apart.end_child()
+
+
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork")
 def test_a_forked_process_has_a_child_of_its_own(csv: Path) -> None:
     program = (

@@ -5,7 +5,7 @@
 ``chosen``    the bearing to begin with: by the name on its box, by its size, or from a file
 ``live``      what is solved at rest: loads, pressures, stiffness, life, fault frequencies
 ``picture``   the same as a drawing: seen along the axis, cut through it, the largest contacts
-``numbers``   the same in words and numbers
+``at_rest``   the same in words and numbers
 ``running``   runs on a thread of their own, with progress, that can be stopped
 ``sensor``    a run with noise of the sensor, as figures and as sound
 ``beside``    a measured record beside the run, and its verdict

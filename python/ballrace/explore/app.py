@@ -19,7 +19,7 @@ def parts():
 
     import ballrace as br
     from ballrace.errors import BallraceError
-    from ballrace.explore import beside, chosen, live, numbers, picture, saved, sensor
+    from ballrace.explore import at_rest, beside, chosen, live, picture, saved, sensor
     from ballrace.explore.controls import controls, taken
     from ballrace.explore.running import Runner
     from ballrace.explore.settings import DAMAGE, SURFACES, Settings
@@ -38,8 +38,8 @@ def parts():
     file = Path(given) if given else None
     opened = None if file is None else chosen.read_file(file)
     return (
-        BallraceError, CONFIG, DAMAGE, Runner, SURFACES, Settings, beside, br, chosen, controls, file, live,
-        mo, numbers, opened, picture, refused, saved, sensor, taken,
+        BallraceError, CONFIG, DAMAGE, Runner, SURFACES, Settings, at_rest, beside, br, chosen, controls, file,
+        live, mo, opened, picture, refused, saved, sensor, taken,
     )  # fmt: skip
 
 
@@ -231,9 +231,9 @@ def drawn(mo, picture, solution, unsolved):
 
 
 @app.cell
-def answer(mo, numbers, solution):
+def answer(at_rest, mo, solution):
     """Show it in numbers."""
-    mo.Html(numbers.page(solution)) if solution is not None else None
+    mo.Html(at_rest.page(solution)) if solution is not None else None
 
 
 @app.cell

@@ -55,6 +55,19 @@ _LONGEST = 1 << 26
 """Most bytes of an answer's line."""
 
 
+_PACKAGE = Path(__file__).resolve().parents[1]
+
+
+def _search_path() -> list[str]:
+    """Return where the child looks for modules: as this process, but in no folder of this package.
+
+    A program that is started from a file has its folder first, as the page of ``explore``; modules there would be
+    taken for those of the standard library.
+    """
+    folders = map(os.path.abspath, sys.path)
+    return [one for one in folders if not Path(one).resolve().is_relative_to(_PACKAGE)]
+
+
 class _Child:
     """The process, and the two pipes to it."""
 
@@ -63,7 +76,7 @@ class _Child:
             raise OSError("a frozen program has no Python for a child; read with trusted=True")
         self.timed_out = self.worn = False
         self._process = subprocess.Popen(
-            [spawn.get_executable(), "-P", "-c", _PROGRAM, *map(os.path.abspath, sys.path)],
+            [spawn.get_executable(), "-P", "-c", _PROGRAM, *_search_path()],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
