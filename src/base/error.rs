@@ -29,7 +29,7 @@ pub enum Error {
     /// The integration could not go on.
     #[error(
         "integration stopped at t = {}, step {}, at {body}: {reason}",
-        quantities::time(.time),
+        moment(.time),
         quantities::time(.step)
     )]
     Integration {
@@ -46,7 +46,7 @@ pub enum Error {
         reason: String,
     },
     /// The observer (Ctrl-C, a callback) asked to stop.
-    #[error("interrupted at t = {}", quantities::time(.time))]
+    #[error("interrupted at t = {}", moment(.time))]
     Interrupted {
         /// Time reached \[s\].
         time: f64,
@@ -55,7 +55,7 @@ pub enum Error {
     #[error(
         "stopped at t = {}: {name} = {limit} is spent; allow more, or make the run cheaper (`ballrace explain` \
          shows how)",
-        quantities::time(.time)
+        moment(.time)
     )]
     Budget {
         /// Simulated time reached \[s\].
@@ -114,6 +114,17 @@ fn readable(text: String) -> String {
 /// Shorthand for results of this crate.
 pub type Result<T> = std::result::Result<T, Error>;
 
+/// A time of a run; before 0 its start settles.
+#[allow(clippy::trivially_copy_pass_by_ref)] // as thiserror gives it
+fn moment(time: &f64) -> String {
+    let settling = if *time < 0.0 {
+        ", while the start settles"
+    } else {
+        ""
+    };
+    format!("{}{settling}", quantities::time(time))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -129,6 +140,8 @@ mod tests {
         };
         let text = "integration stopped at t = 1.25 ms, step 3.4e-13 s, at outer: why";
         assert_eq!(error.to_string(), text);
+        let text = "interrupted at t = -2 ms, while the start settles";
+        assert_eq!(Error::Interrupted { time: -2e-3 }.to_string(), text);
     }
 
     #[test]

@@ -156,7 +156,7 @@ def test_no_space_left_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPat
 
 def test_a_file_in_the_way_and_a_foreign_folder(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("mine")
-    with pytest.raises(OSError, match="file"):
+    with pytest.raises(br.CampaignError, match="file: a file; give a folder"):
         run(table(2), tmp_path / "file")
     with pytest.raises(
         br.CampaignError, match="not a campaign's folder, it holds file; give a new"

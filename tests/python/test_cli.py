@@ -49,6 +49,11 @@ def refused(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:
     return captured.err
 
 
+def test_a_damaged_file_is_bad_input(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    (tmp_path / "bad.parquet").write_text("x")
+    assert "not a Parquet file" in refused(capsys, "spectrum", str(tmp_path / "bad.parquet"))
+
+
 def test_demo(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     assert main(["demo", "--duration", "0.004"]) == 0
     captured = capsys.readouterr()

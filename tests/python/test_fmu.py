@@ -45,11 +45,11 @@ def test_without_the_library_it_says_how_to_build_it(
     file.write_text(scene().to_toml(), encoding="utf-8")
     packed = tmp_path / "bearing.fmu"
     command = ["fmu", str(file), "-o", str(packed), "--library"]
-    assert main([*command, str(tmp_path / "none.so")]) == 1
+    assert main([*command, str(tmp_path / "none.so")]) == 2
     assert "cargo build --release -p ballrace-fmu" in capsys.readouterr().err
     other = tmp_path / "other.so"
     other.write_text("no library", encoding="utf-8")
-    assert main([*command, str(other)]) == 1
+    assert main([*command, str(other)]) == 2
     assert f"{other}: no library of ballrace's FMUs" in capsys.readouterr().err
     assert not packed.exists()
 

@@ -75,10 +75,12 @@ class Store:
         Raises
         ------
         CampaignError
-            The folder holds other files, or another campaign.
+            The folder holds other files, or another campaign; or it is a file.
         OSError
             The folder cannot be made or written to.
         """
+        if root.exists() and not root.is_dir():
+            raise CampaignError(f"{root}: a file; give a folder, a new or an empty one")
         root.mkdir(parents=True, exist_ok=True)
         if description.sound(root)[0] is None:
             cls._found(root, identity)

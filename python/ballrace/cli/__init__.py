@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from .._libraries import MissingLibraryError
 from .._text import printable
-from ..errors import BallraceError, SceneError
+from ..errors import BallraceError, FileError, SceneError
 from . import about, campaigns, diagnosing, exploring, fmu, running, signals, statics, studies
 
 if TYPE_CHECKING:
@@ -35,7 +35,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         with contextlib.suppress(OSError, ValueError):
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1
-    except SceneError as error:
+    except (SceneError, FileError) as error:
         return _fail(str(error), 2)
     except (BallraceError, MissingLibraryError) as error:
         return _fail(str(error), 1)

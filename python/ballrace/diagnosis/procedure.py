@@ -184,7 +184,8 @@ def diagnose(
         > strongest(evidence[part].role)
     ]
     kurtosis = found.envelopes.impacts(limits.faint if limits else 0.0)
-    cage = evidence["cage"].probability < false_alarm
+    # A cage that stands has no lines.
+    cage = "cage" in evidence and evidence["cage"].probability < false_alarm
     verdict = decided(
         evidence, own, false_alarm, strong=strong, limits=limits, silent=not has_background(channel.x),
         impacts=unexplained(kurtosis, exact=exact, cage=cage),

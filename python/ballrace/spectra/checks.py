@@ -48,8 +48,11 @@ def checked_signal(x: ArrayLike, fs: float, name: str = "x") -> NDArray[np.float
         raise SceneError(
             name, f"an array of shape {signal.shape}", "an array of shape (n,), n at least 8"
         )
-    if not np.isfinite(signal).all():
-        raise SceneError(name, "not a number, or infinite, at places", "finite everywhere")
+    wrong = np.flatnonzero(~np.isfinite(signal))
+    if wrong.size:
+        found = f"{signal[wrong[0]]} in sample {wrong[0]}"
+        others = f" and {wrong.size - 1} others" if wrong.size > 1 else ""
+        raise SceneError(name, found + others, "finite everywhere")
     if np.abs(signal).max() > LARGEST:
         raise SceneError(name, f"up to {np.abs(signal).max():g}", f"magnitudes up to {LARGEST:g}")
     sampling_rate(fs)
