@@ -29,7 +29,7 @@ pub enum Error {
     /// The integration could not go on.
     #[error(
         "integration stopped at t = {}, step {}, at {body}: {reason}",
-        moment(.time),
+        reached(.time),
         quantities::time(.step)
     )]
     Integration {
@@ -46,7 +46,7 @@ pub enum Error {
         reason: String,
     },
     /// The observer (Ctrl-C, a callback) asked to stop.
-    #[error("interrupted at t = {}", moment(.time))]
+    #[error("interrupted at t = {}", reached(.time))]
     Interrupted {
         /// Time reached \[s\].
         time: f64,
@@ -55,7 +55,7 @@ pub enum Error {
     #[error(
         "stopped at t = {}: {name} = {limit} is spent; allow more, or make the run cheaper (`ballrace explain` \
          shows how)",
-        moment(.time)
+        reached(.time)
     )]
     Budget {
         /// Simulated time reached \[s\].
@@ -114,9 +114,9 @@ fn readable(text: String) -> String {
 /// Shorthand for results of this crate.
 pub type Result<T> = std::result::Result<T, Error>;
 
-/// A time of a run; before 0 its start settles.
+/// The time that a run has reached, as messages say it; before 0 its start settles.
 #[allow(clippy::trivially_copy_pass_by_ref)] // as thiserror gives it
-fn moment(time: &f64) -> String {
+fn reached(time: &f64) -> String {
     let settling = if *time < 0.0 {
         ", while the start settles"
     } else {

@@ -15,6 +15,7 @@ import polars as pl
 import pytest
 
 import ballrace as br
+from ballrace.campaigns.frames import rows_of
 from sweeps import SCENE, run, table
 
 
@@ -61,13 +62,19 @@ def test_wrong_arguments_are_refused_before_anything_is_written(
     assert not (tmp_path / "runs").exists()
 
 
+def test_records_with_names_are_a_table() -> None:
+    """A NumPy array of records has names of columns, and is no array of numbers."""
+    rows, names = rows_of(np.array([(1.0, 2), (3.0, 4)], dtype=[("a", float), ("b", int)]))
+    assert (rows, names) == ([{"a": 1.0, "b": 2}, {"a": 3.0, "b": 4}], ["a", "b"])
+
+
 @pytest.mark.parametrize(
     ("given", "message"),
     [
         ("cases.csv", "cases = 'cases.csv': a table: polars, pandas"),
         (Path("cases.csv"), "polars.read_csv(path) reads a file"),
-        (np.zeros((3, 2)), "cases = a ndarray without names of columns: a table"),
-        ([500.0, 1000.0], "cases = a list without names of columns: a table"),
+        (np.zeros((3, 2)), "cases = ndarray without names of columns: a table"),
+        ([500.0, 1000.0], "cases = list without names of columns: a table"),
     ],
 )
 def test_what_has_no_names_of_columns_is_no_table(

@@ -14,6 +14,9 @@ from ..errors import SceneError
 
 _KINDS = "a table: polars, pandas, Arrow, a list of dicts or a dict of columns"
 
+_MADE_UP = re.compile(r"(column_\d+)?")
+"""Names that polars gives to columns without one."""
+
 _OTHER_UNITS = {"rpm": ("speed", "rad/s"), "mm": (None, "m"), "c": (None, "K")}
 """Endings of names in another unit than the field: the quantity that the ending alone says, the field's unit."""
 
@@ -56,17 +59,18 @@ def _of_pandas(table: Any) -> tuple[list[dict[str, Any]], list[Any]]:
 
 
 def _frame(table: Any, pl: Any) -> Any:
-    # polars makes a column without a name of a text's letters and of plain numbers.
     if isinstance(table, str | os.PathLike):
         raise SceneError("cases", repr(str(table)), f"{_KINDS}; polars.read_csv(path) reads a file")
-    if isinstance(table, Sequence | np.ndarray):
-        raise SceneError("cases", f"a {type(table).__name__} without names of columns", _KINDS)
     if isinstance(table, pl.LazyFrame):
         return table.collect()
     try:
-        return pl.DataFrame(table)
+        frame = pl.DataFrame(table)
     except (TypeError, ValueError, pl.exceptions.PolarsError) as error:
         raise SceneError("cases", type(table).__name__, f"{_KINDS} ({error})") from error
+    # Of a list of numbers or a plain array polars makes names up; of records with names it takes theirs.
+    if isinstance(table, Sequence | np.ndarray) and all(map(_MADE_UP.fullmatch, frame.columns)):
+        raise SceneError("cases", f"{type(table).__name__} without names of columns", _KINDS)
+    return frame
 
 
 def resembling(label: str, scenes: Iterable[Any], arguments: Iterable[str]) -> str | None:

@@ -122,7 +122,7 @@ class Spline(Variant, tag="spline"):
 def values_at(function: TimeFunction, times: ArrayLike) -> NDArray[np.float64]:
     """Return the values of a function at times [s]; at a jump the one after it."""
     t = np.asarray(times, np.float64)
-    found = _core.time_values(json.dumps(encode(function, "")), np.ravel(t))
+    found = _core.time_values(json.dumps(encode(function, "function")), np.ravel(t))
     return found.reshape(t.shape)
 
 

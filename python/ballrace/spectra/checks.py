@@ -51,8 +51,8 @@ def checked_signal(x: ArrayLike, fs: float, name: str = "x") -> NDArray[np.float
     wrong = np.flatnonzero(~np.isfinite(signal))
     if wrong.size:
         found = f"{signal[wrong[0]]} in sample {wrong[0]}"
-        others = f" and {wrong.size - 1} others" if wrong.size > 1 else ""
-        raise SceneError(name, found + others, "finite everywhere")
+        more = f", and {wrong.size - 1} more like it" if wrong.size > 1 else ""
+        raise SceneError(name, found + more, "finite everywhere")
     if np.abs(signal).max() > LARGEST:
         raise SceneError(name, f"up to {np.abs(signal).max():g}", f"magnitudes up to {LARGEST:g}")
     sampling_rate(fs)
