@@ -50,6 +50,12 @@ def test_a_title_that_looks_like_toml() -> None:
     assert text.count("# A force on a ring's centre or on another point of it, in a fixed") == 2
 
 
+@pytest.mark.parametrize("end", ["\x0b", "\x0c", "\x1c", "\x85", "\u2028", "\u2029", "\r", "\n"])
+def test_a_name_with_ends_of_lines_that_toml_does_not_know(end: str) -> None:
+    scene = br.bearing("6205").replace({"name": f"a{end}b"})
+    assert s.Scene.from_toml(scene.to_toml(comments=True)) == scene
+
+
 def test_comments_are_those_of_the_schema() -> None:
     text = br.presets.wheel_bearing().to_toml(comments=True)
     assert (

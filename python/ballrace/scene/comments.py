@@ -49,7 +49,8 @@ def commented(toml: str, kind: type[Part]) -> str:
 def _statements(toml: str) -> Iterator[str]:
     """Return headings, fields and empty lines; a text that goes over several lines is one."""
     held = ""
-    for line in toml.splitlines():
+    # Python knows more ends of lines than TOML, which a name may have in it.
+    for line in toml.removesuffix("\n").split("\n"):
         held = f"{held}\n{line}" if held else line
         try:
             tomllib.loads(held)
