@@ -326,11 +326,19 @@ def test_leftovers_disturb_nothing(tmp_path: Path) -> None:
         for name in (".nfs0001", "leftover.parquet", "0123456789abcdef.parquet.part"):
             (tmp_path / folder / name).write_text("not Parquet")
     # As if killed between the signals and the rows that name them: an orphan.
-    (shard,) = (p for p in (tmp_path / "signals").iterdir() if len(p.stem) == 32)
-    shutil.copy(shard, shard.with_name(f"{'0' * 32}.parquet"))
+    run(table(3), tmp_path / "other", keep="signals")
+    (shard,) = (tmp_path / "other" / "signals").iterdir()
+    shutil.copy(shard, tmp_path / "signals")
+    shutil.rmtree(tmp_path / "other")
     again = run(table(5), tmp_path, keep="signals")
     assert again.scan().collect()["case_id"].n_unique() == 4
     assert comparable(again.manifest[:4]).equals(comparable(whole.manifest), null_equal=True)
+    # Damaged it is set aside, though no case needs it: the folder is as it should be thereafter.
+    orphan = tmp_path / "signals" / shard.name
+    orphan.write_bytes(orphan.read_bytes()[:100])
+    with pytest.warns(br.CampaignWarning, match=f"set aside.*: {shard.name}"):
+        again = run(table(5), tmp_path, keep="signals")
+    assert again.verify()["problem"].drop_nulls().is_empty()
 
 
 def test_a_new_version_warns_or_refuses(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

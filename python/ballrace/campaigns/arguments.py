@@ -93,7 +93,8 @@ class Plan:
         rows = [row for row in results.iter_rows(named=True) if row["case_id"] in ids]
         shards = None
         if self.job.keep_signals:
-            broken = store.damaged_signals(row["signals"] for row in rows)
+            others = set(results["signals"].drop_nulls()) - {row["signals"] for row in rows}
+            broken = store.damaged_signals(but=others)
             damaged += broken
             shards = names(store.root, "signals") - {path.name for path in broken}
         finished = {

@@ -261,10 +261,13 @@ class Store:
             check_shard(path)
             self._verified.add(known)
 
-    def damaged_signals(self, named: Iterable[str]) -> list[Path]:
-        """Return those of the named shards of signals that are there but not what was written."""
+    def damaged_signals(self, but: Iterable[str] = ()) -> list[Path]:
+        """Return the shards of signals that are there but not what was written, ``but`` for those of others.
+
+        Also those that no row names, as killed processes leave them.
+        """
         damaged = []
-        for name in sorted(names(self.root, "signals").intersection(named)):
+        for name in sorted(names(self.root, "signals").difference(but)):
             path = self.root / "signals" / name
             try:
                 self._check_signals(path)

@@ -55,7 +55,8 @@ def _files(root: Path) -> Iterator[tuple[str, str | None]]:
         yield "manifest.parquet", _problem(scan_sealed, root / "manifest.parquet")
     for name in sorted(names(root, "results")):
         yield f"results/{name}", _problem(shard_of_results, root / "results" / name)
-    for name in sorted(names(root, "signals") | _named(root)):
+    there = names(root, "signals")
+    for name in sorted(there | _lost(root, there)):
         yield f"signals/{name}", _problem(check_shard, root / "signals" / name)
 
 
@@ -71,11 +72,15 @@ def _problem(check: Callable[[Path], object], path: Path) -> str | None:
     return None
 
 
-def _named(root: Path) -> set[str]:
-    """Return the shards of signals that rows of sound shards name."""
-    found: set[str] = set()
+def _lost(root: Path, there: set[str]) -> set[str]:
+    """Return the shards of signals that rows of sound shards name and that are not there.
+
+    A case that ran again has rows of both times: those of the first may name what was set aside.
+    """
+    named: dict[str, set[str]] = {}
     for name in names(root, "results"):
         with suppress(OSError, ValueError, CampaignError):
             rows, _ = shard_of_results(root / "results" / name)
-            found.update(rows["signals"].drop_nulls())
-    return found
+            for case, signals in rows.select("case_id", "signals").drop_nulls().iter_rows():
+                named.setdefault(case, set()).add(signals)
+    return {one for of_case in named.values() if not of_case & there for one in of_case}
