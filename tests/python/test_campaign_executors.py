@@ -9,6 +9,7 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -16,7 +17,7 @@ from typing import Any
 import pytest
 
 import ballrace as br
-from ballrace.campaigns import Progress, executors
+from ballrace.campaigns import Progress, executors, silence
 from sweeps import SCENE, run, same, table
 
 COUNT = 60
@@ -228,6 +229,107 @@ class Recorder:
         future: Future[str] = Future()
         future.set_result(fn(text))
         return future
+
+
+class Loser(Recorder):
+    """An executor that loses its second task, and finds it again after a while [s]."""
+
+    def __init__(self, after: float) -> None:
+        super().__init__()
+        self.after = after
+
+    def submit(self, fn: Any, /, text: str) -> Future[str]:
+        if len(self.sizes) != 1:
+            return super().submit(fn, text)
+        self.sizes.append(len(json.loads(text)["cases"]))
+        lost: Future[str] = Future()
+
+        def find() -> None:
+            if not lost.cancelled():
+                lost.set_result(fn(text))
+
+        found = threading.Timer(self.after, find)
+        found.daemon = True
+        found.start()
+        return lost
+
+
+def test_a_task_that_is_lost_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It cannot be known from one that takes long: what is safe is said, and that the same call goes on."""
+    monkeypatch.setattr(silence, "_FIRST", 0.3)
+    monkeypatch.setattr(silence, "_SHARE", 0.0)
+    monkeypatch.setattr(silence, "_LOOK", 0.0)
+    with pytest.warns(br.CampaignWarning) as told:
+        done = run(table(9), tmp_path, executor=Loser(after=3.0))
+    assert done.manifest["status"].to_list().count("missing") == 0
+    texts = [str(each.message) for each in told]
+    assert (
+        "with 1 tasks out: cases take as long, or it has lost tasks; 8 cases of this call"
+        in texts[0]
+    )
+    assert f"are safe in {tmp_path}, and after Ctrl-C the same call goes on" in texts[0]
+    # Again after twice as long each time.
+    assert 2 <= len(texts) <= 5
+
+
+class Dask:
+    """What is known of a Dask cluster whose workers may go, all at once and for good."""
+
+    status = "running"
+
+    def __init__(self) -> None:
+        self._scheduler_identity: dict[str, Any] = {"n_workers": 2, "workers": {}}
+
+    def desert(self) -> None:
+        # As of versions before 2025.4, which list all workers.
+        self._scheduler_identity = {"workers": {}}
+
+
+class Deserted(Loser):
+    def __init__(self) -> None:
+        super().__init__(after=30.0)
+        self._client = Dask()
+
+    def submit(self, fn: Any, /, text: str) -> Future[str]:
+        if self.sizes:
+            self._client.desert()
+        return super().submit(fn, text)
+
+
+@pytest.mark.parametrize("retries", [0, 2])
+def test_without_workers_dask_is_waited_for_within_bounds(
+    retries: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Its nannies give workers up that die too often, and then tasks wait for ever."""
+    monkeypatch.setattr(silence, "_DESERTED", 0.5)
+    monkeypatch.setattr(silence, "_LOOK", 0.0)
+    limit = 0.5 * (1 + retries)
+    text = rf"no worker for .* the limit is {limit:g} s with retries = {retries}; .*; 8 of 9 cases are safe"
+    with pytest.raises(br.CampaignError, match=text):
+        run(table(9), tmp_path, executor=Deserted(), retries=retries)
+
+
+@pytest.mark.long
+@pytest.mark.filterwarnings("default")  # Dask's own, as it loses workers
+def test_a_dask_cluster_whose_workers_all_die(
+    whole: br.Campaign, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    distributed: Any = importlib.import_module("distributed")
+    monkeypatch.setattr(silence, "_DESERTED", 3.0)
+    with (
+        distributed.LocalCluster(
+            n_workers=2, threads_per_worker=1, processes=True, dashboard_address=":0"
+        ) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+
+        def scale(progress: Progress) -> None:
+            if progress.done >= 10:
+                cluster.scale(0)
+
+        with pytest.raises(br.CampaignError, match=r"Dask has had no worker .* cases are safe in"):
+            run(table(2000), tmp_path, duration=LONGER, executor=client, progress=scale)
+    assert same(run(table(COUNT), tmp_path, duration=LONGER), whole)
 
 
 class Crowd(Recorder):

@@ -20,6 +20,7 @@ from .._text import printable
 from ..errors import BallraceError, CampaignError, CampaignWarning, from_record, record_of
 from .handout import Handout, has_died, pool_like
 from .progress import Counts
+from .silence import Silence
 from .store import Store
 from .work import Job, check_process, record_failed, run_here, version
 
@@ -107,14 +108,21 @@ class Spread:
 
     def run(self) -> None:
         """Run all cases."""
+        silence = Silence(self._executor, 1 + self._job.retries, self._safe)
         try:
             while self._hand_out():
                 ended = wait(self._pending, timeout=0.1, return_when=FIRST_COMPLETED).done
                 _check_scheduler(self._executor)
                 self._take(ended)
+                if ended:
+                    silence.over()
+                silence.look(len(self._pending))
                 self._on_progress(self._counts)
         finally:
             self._end()
+
+    def _safe(self) -> str:
+        return f"{self._counts.done} cases of this call are safe in {self._store.root}"
 
     def _hand_out(self) -> bool:
         """Hand out as much as may be in progress, and say whether anything is."""

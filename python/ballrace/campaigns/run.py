@@ -186,7 +186,7 @@ def campaign(
         How often a case is tried again, by itself in a new pool, if its worker died, for example of too little
         memory; if it dies again the case is a row with a CampaignError. 0: a worker's death ends the campaign.
         With executors other than Dask and :class:`concurrent.futures.ProcessPoolExecutor` a broken pool always
-        ends it.
+        ends it. A Dask cluster that has lost all its workers is waited for ``1 + retries`` minutes.
     shard : tuple of int, int
         ``(i, n)`` runs every n-th case from the i-th, i from 0: n such calls, on any machines at any times, run
         the whole campaign.
@@ -230,7 +230,8 @@ def campaign(
         A number of ``scene`` is one that no bearing is likely to have, or a probe records what cannot move.
     CampaignWarning
         A label resembles a field; there are cases of another version, or that ran on other vector instructions;
-        files were damaged, and their cases run again; a worker died, and its cases are tried again.
+        files were damaged, and their cases run again; a worker died, and its cases are tried again; an executor
+        has given nothing back for 5 minutes or more.
 
     Examples
     --------
