@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import errno
 import io
 import json
@@ -17,7 +18,7 @@ import polars as pl
 import pytest
 
 import ballrace as br
-from ballrace._io.whole import grab
+from ballrace._io.whole import grab, lock
 from ballrace.campaigns import Progress, disk
 from ballrace.campaigns.store import Store
 from sweeps import run, same, table
@@ -141,16 +142,41 @@ def test_a_file_swept_away_before_its_lock_is_made_again(
     (tmp_path / "tmp").mkdir()
     swept: list[Path] = []
 
-    def sweep_first(file: int) -> bool:
+    def sweep_first(file: int) -> None:
         if not swept:
             swept.extend((tmp_path / "tmp").iterdir())
             swept[0].unlink()
-        return grab(file)
+        lock(file)
 
-    monkeypatch.setattr(disk, "grab", sweep_first)
+    monkeypatch.setattr(disk, "lock", sweep_first)
     assert disk.put(tmp_path, "file", b"whole")
     assert swept
     assert (tmp_path / "file").read_bytes() == b"whole"
+
+
+@pytest.mark.skipif(os.name == "nt", reason="nothing is swept there")
+def test_a_file_that_is_just_swept_away_is_made_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The other process has its lock, but has not removed it yet."""
+    (tmp_path / "tmp").mkdir()
+    with contextlib.ExitStack() as sweeper:
+        taken: list[Path] = []
+
+        def take_first(file: int) -> None:
+            if not taken:
+                taken.extend((tmp_path / "tmp").iterdir())
+                sweeping = sweeper.enter_context(taken[0].open("r+b"))
+                assert grab(sweeping.fileno())
+            try:
+                lock(file)
+            finally:
+                sweeper.callback(taken[0].unlink, missing_ok=True)
+
+        monkeypatch.setattr(disk, "lock", take_first)
+        with disk._temporary(tmp_path / "tmp") as (path, file):
+            assert path != taken[0]
+            assert file.writable()
 
 
 @pytest.mark.parametrize(

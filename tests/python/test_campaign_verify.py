@@ -162,7 +162,7 @@ def test_nothing_is_followed_or_swept_through_a_link(folder: Path, name: str) ->
 @links
 @pytest.mark.parametrize("kind", ["results", "signals", "locks"])
 def test_files_of_a_campaign_are_no_links(folder: Path, kind: str) -> None:
-    (path, *_) = (folder / kind).iterdir()
+    (path, *_) = sorted((folder / kind).iterdir())
     moved = folder.with_name("elsewhere")
     path.rename(moved)
     path.symlink_to(moved)

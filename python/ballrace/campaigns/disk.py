@@ -10,7 +10,7 @@ import uuid
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING
 
-from .._io.whole import grab, sync_folder
+from .._io.whole import grab, lock, sync_folder
 from ..errors import CampaignError
 
 if TYPE_CHECKING:
@@ -91,13 +91,23 @@ def _temporary(folder: Path) -> Iterator[tuple[Path, BufferedWriter]]:
         path = folder / uuid.uuid4().hex
         try:
             with path.open("xb") as file:
-                grab(file.fileno())
-                # Unless it was swept away between its creation and its lock.
-                if path.exists():
+                # Unless it was, or is just being, swept away between its creation and its lock.
+                if not _is_taken(file.fileno()) and path.exists():
                     yield path, file
                     return
         finally:
             path.unlink(missing_ok=True)
+
+
+def _is_taken(file: int) -> bool:
+    """Lock a new file, and say whether another process has done so; nobody does where there are no locks."""
+    try:
+        lock(file)
+    except (BlockingIOError, PermissionError):
+        return True
+    except OSError:
+        pass
+    return False
 
 
 def _link(temporary: Path, path: Path) -> bool:

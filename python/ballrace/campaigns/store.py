@@ -32,6 +32,7 @@ from ..errors import CampaignError, CampaignWarning
 from . import description
 from .columns import schema
 from .disk import hash_of, put, reading, refuse_link, sweep
+from .locks import in_turn
 from .shards import FEATURES, SHARD, check_shard, names, set_aside, shard_of_results
 
 if TYPE_CHECKING:
@@ -93,15 +94,15 @@ class Store:
         return store
 
     def _mend(self) -> None:
-        """Write the copies of the description anew that are missing or damaged."""
-        for name, why in self.wrong.items():
-            if why != "missing":
-                warn(
-                    f"{self.root / name}: {why}; it is written anew from its copy",
-                    CampaignWarning,
-                    5,
-                )
-            description.write(self.root, name, self.identity)
+        """Write the copies of the description anew that are missing or damaged, unless another process has."""
+        if not self.wrong:
+            return
+        with in_turn(self.root / "locks", "description"):
+            for name, why in description.sound(self.root)[1].items():
+                if why != "missing":
+                    text = f"{self.root / name}: {why}; it is written anew from its copy"
+                    warn(text, CampaignWarning, 5)
+                description.write(self.root, name, self.identity)
 
     @staticmethod
     def _found(root: Path, identity: Mapping[str, Any]) -> None:
@@ -119,8 +120,10 @@ class Store:
             (root / folder).mkdir(exist_ok=True)
         wanted = description.described(identity)
         _readmit(root, wrong, wanted)
-        # Of several processes one does; the copy is made of what is there then.
-        description.write(root, description.NAMES[0], wanted, new=True)
+        # Of several processes one does; the copy is made of what is there then. Where there are no links, the turn
+        # keeps the others from replacing it, in which moment it would be missing.
+        with in_turn(root / "locks", "description"):
+            description.write(root, description.NAMES[0], wanted, new=True)
 
     @classmethod
     def opened(cls, root: Path, identity: Mapping[str, Any]) -> Store:
