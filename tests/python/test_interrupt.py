@@ -67,6 +67,30 @@ def test_ctrl_c_stops_the_command_and_leaves_nothing(tmp_path: Path) -> None:
     assert [p.name for p in tmp_path.iterdir()] == ["scene.toml"]
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="Ctrl-C is sent in another way there")
+def test_a_second_ctrl_c_keeps_the_status(tmp_path: Path) -> None:
+    """It comes while Python is at its end, where it would end the process itself: some 50 ms, hit every time."""
+    (tmp_path / "scene.toml").write_text(br.presets.wheel_bearing().to_toml())
+    options = ["--duration", str(LONG), "--fs", "1000", "-o", "out.parquet"]
+    program = (
+        "import runpy, ballrace.cli; print('running', flush=True)\n"
+        "runpy.run_module('ballrace', run_name='__main__')"
+    )
+    command = [sys.executable, "-W", "ignore", "-c", program, "run", "scene.toml", *options]
+    for _ in range(3):
+        with subprocess.Popen(
+            command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=tmp_path
+        ) as child:
+            assert child.stdout is not None
+            assert child.stderr is not None
+            assert child.stdout.readline() == "running\n"
+            time.sleep(1.0)
+            child.send_signal(signal.SIGINT)
+            assert child.stderr.readline() == "ballrace: interrupted\n"
+            child.send_signal(signal.SIGINT)
+            assert (child.wait(timeout=10.0), child.stderr.read()) == (130, "")
+
+
 def test_other_threads_go_on(wheel: br.Scene) -> None:
     ended = threading.Event()
     counts = [0]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import contextlib
 import os
+import signal
 import sys
 from typing import TYPE_CHECKING
 
@@ -16,7 +17,25 @@ from . import about, campaigns, diagnosing, exploring, fmu, running, signals, st
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-__all__ = ["main"]
+__all__ = ["command", "main"]
+
+
+def command() -> int:
+    """Run the command as a process of its own, and return its status, whenever Ctrl-C comes again."""
+    status = 130
+    try:
+        status = main()
+        _leave_in_peace()
+    except KeyboardInterrupt:
+        # While the first one was reported.
+        _leave_in_peace()
+    return status
+
+
+def _leave_in_peace() -> None:
+    """Have Ctrl-C no longer end the process, which ends now: its status would be lost."""
+    with contextlib.suppress(ValueError):  # on another thread there is no Ctrl-C
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
