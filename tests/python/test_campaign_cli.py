@@ -136,6 +136,23 @@ def test_any_value_of_any_entry_is_run_or_refused(entry: str, tmp_path: Path) ->
             assert not out.exists()
 
 
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--status", "runs", "sweep.toml"], "sweep = sweep.toml: absent beside --status"),
+        (["--status", "runs", "--verify"], "verify = True: absent beside --status"),
+        (["runs", "--verify", "-o", "other"], "output = other: absent beside --verify"),
+        (["runs", "--verify", "--threads", "3"], "threads = 3: absent beside --verify"),
+    ],
+    ids=str,
+)
+def test_what_would_say_nothing_is_refused(
+    arguments: list[str], message: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["campaign", *arguments]) == 2
+    assert message in capsys.readouterr().err
+
+
 def test_bad_options(tmp_path: Path, sweep: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["campaign", str(sweep)]) == 2
     assert "SWEEP -o FOLDER" in capsys.readouterr().err

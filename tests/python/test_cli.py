@@ -388,6 +388,15 @@ def blows(tmp_path: Path) -> Path:
     return tmp_path / "blows.wav"
 
 
+def test_a_rate_that_is_not_that_of_a_run(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    out = br.simulate(br.presets.deep_groove_6205(), duration=1e-3, fs=20e3)
+    out.write_parquet(tmp_path / "out.parquet")
+    text = refused(capsys, "diagnose", str(tmp_path / "out.parquet"), "--fs", "1000")
+    assert "fs = 1000: the rate of the run, 20000 Hz, or absent" in text
+
+
 def test_spectrum(capsys: pytest.CaptureFixture[str], tmp_path: Path, blows: Path) -> None:
     named = ["--bearing", "6205", "--rpm", "1797"]
     assert main(["spectrum", str(blows), *named]) == 0
@@ -416,6 +425,8 @@ def test_spectrum(capsys: pytest.CaptureFixture[str], tmp_path: Path, blows: Pat
     assert "column" in refused(capsys, "spectrum", str(blows), "--column", "x")
     assert "csv" in refused(capsys, "spectrum", str(blows), "-o", "s.pdf")
     assert "plain" in refused(capsys, "spectrum", str(blows), "--plain", "-o", "t.html")
+    # It would say nothing: a record has no bearing of its own.
+    assert "absent without --bearing" in refused(capsys, "spectrum", str(blows), "--rpm", "1797")
     assert not (tmp_path / "t.html").exists()
 
 

@@ -77,14 +77,17 @@ def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:
         help="a case that fails is a row, or ends the campaign (default: %(default)s)",
     )  # fmt: skip
     add_budget(parser, "a case")
-    parser.set_defaults(command=_command)
+    defaults = {name: parser.get_default(name) for name in vars(parser.parse_args([]))}
+    parser.set_defaults(command=lambda options: _command(options, defaults))
 
 
-def _command(options: argparse.Namespace) -> None:
+def _command(options: argparse.Namespace, defaults: dict[str, Any]) -> None:
     if options.status is not None:
+        _refuse_others(options, defaults, "status")
         _show(Campaign.open(options.status))
         return
     if options.verify and options.sweep is not None:
+        _refuse_others(options, defaults, "verify", "sweep")
         _verify(options.sweep)
         return
     if options.sweep is None or options.output is None:
@@ -112,6 +115,14 @@ def _command(options: argparse.Namespace) -> None:
         print(found)
     else:
         _show(found)
+
+
+def _refuse_others(options: argparse.Namespace, defaults: dict[str, Any], *own: str) -> None:
+    """Refuse what would say nothing beside an option that only looks at a folder."""
+    for name, default in defaults.items():
+        if name not in own and getattr(options, name) != default:
+            shown, allowed = str(getattr(options, name)), f"absent beside --{own[0]}"
+            raise SceneError(name, shown, allowed)
 
 
 def _show(found: Campaign) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import math
 import shutil
 import sys
 import tempfile
@@ -148,15 +149,20 @@ def _spectrum(options: argparse.Namespace) -> None:
 
 def read_columns(path: Path, fs: float | None = None) -> Columns:
     """Read a run, which has its scene, or a record, whose sampling rate may have to be given [Hz]."""
+    out = None
     try:
         # One without a hash was written by something else, and is read in a child process.
         if path.suffix.lower() in PARQUET and is_sealed(path):
-            return Signals.read_parquet(path)
+            out = Signals.read_parquet(path)
     except SceneError:
         raise
     except ValueError:
         pass  # damaged, or a record: reading it shows
-    return read(path, fs)
+    if out is None:
+        return read(path, fs)
+    if fs is not None and not math.isclose(fs, out.fs, rel_tol=1e-3):
+        raise SceneError("fs", f"{fs:g}", f"the rate of the run, {out.fs:g} Hz, or absent")
+    return out
 
 
 def _rates(
@@ -167,11 +173,18 @@ def _rates(
         if rpm is None and outer_rpm is None and shaft is not None:
             rpm = 60.0 * shaft
         return fault_frequencies(bearing, rpm, outer_rpm=outer_rpm)
+    speeds = {name: v for name, v in (("rpm", rpm), ("outer_rpm", outer_rpm)) if v is not None}
     if isinstance(out, Signals):
         try:
             return fault_frequencies(out, rpm, outer_rpm=outer_rpm)
         except SceneError:
+            if speeds:
+                raise
             return None  # the speed changes
+    for name, speed in speeds.items():
+        raise SceneError(
+            name, f"{speed:g}", "absent without --bearing: a record has no lines of its own"
+        )
     return None
 
 
