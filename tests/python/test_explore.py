@@ -287,6 +287,23 @@ def test_a_dropped_record_gets_the_verdict_of_diagnose(spalled: br.Signals, tmp_
     assert beside.overlaid(None, channel, None, found).data[0].name == "measured"
 
 
+def test_of_a_very_long_record_the_beginning_is_judged(
+    spalled: br.Signals, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A verdict on all of a file of 30 MB took 15 GB of memory."""
+    monkeypatch.setattr(beside, "_LONGEST", 8000)
+    dropped = beside.received("pump.csv", record(spalled, tmp_path))
+    channel, found = beside.judged(dropped, "a", spalled.scene, speed_rpm=None, unit=None)
+    assert np.array_equal(channel.x, dropped.record["a"][:8000])
+    healthy = spalled.scene.replace({"defects": {}})
+    assert found.rows() == br.diagnose(channel, healthy, 1800.0).rows()
+    text = beside.left_out(dropped, channel)
+    assert text.startswith("Judged are the first 0.312 s of the record's 0.4 s")
+    monkeypatch.setattr(beside, "_LONGEST", 10**9)
+    channel, _ = beside.judged(dropped, "a", spalled.scene, speed_rpm=None, unit=None)
+    assert beside.left_out(dropped, channel) == ""
+
+
 def test_a_record_in_g_is_taken_as_what_it_is(spalled: br.Signals, tmp_path: Path) -> None:
     plain = np.column_stack([sensor.sensed(spalled).x / 9.80665])
     text = "\n".join(f"{each:.9g}" for each in plain[:, 0])

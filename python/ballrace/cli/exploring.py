@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import signal
+import threading
 import webbrowser
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,6 +14,7 @@ from .arguments import Commands, added
 
 if TYPE_CHECKING:
     import argparse
+    from collections.abc import Iterator
 
 __all__ = ["add_commands"]
 
@@ -36,8 +40,33 @@ def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:
 
 
 def _explore(options: argparse.Namespace) -> None:
-    with served(options.file, options.port) as page:
+    with _ended_by_signals(), served(options.file, options.port) as page:
         print(f"{page.url}\nCtrl-C ends it.", flush=True)
         if not options.no_browser:
             webbrowser.open(page.url)
         page.wait()
+
+
+@contextmanager
+def _ended_by_signals() -> Iterator[None]:
+    """Have the signals of a batch system and of a terminal that is closed end the block as an error does."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+
+    def end(number: int, frame: object) -> None:
+        del frame
+        for each in before:
+            signal.signal(each, signal.SIG_IGN)
+        raise SystemExit(128 + number)
+
+    numbers = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
+    # What is ignored stays so, as under nohup.
+    before = {n: signal.getsignal(n) for n in numbers if signal.getsignal(n) != signal.SIG_IGN}
+    try:
+        for number in before:
+            signal.signal(number, end)
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)

@@ -11,10 +11,12 @@
 ``beside``    a measured record beside the run, and its verdict
 ``saved``     scene, report and notebook as files
 ``app``       the page itself, of marimo; it computes nothing
-``served``    the page on loopback, behind a token
+``served``    the page on loopback, behind a token, in a process that ends with this one
+``serving``   what that process does
+``guard``     who is answered, and what a browser may do with an answer
 ============  ==========================================================================================
 
-Only ``app`` and ``served`` need marimo (extra ``app``).
+Only ``app``, ``served`` and ``serving`` need marimo (extra ``app``).
 """
 
 from __future__ import annotations

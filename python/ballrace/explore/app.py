@@ -13,11 +13,13 @@ app = marimo.App(
 @app.cell
 def parts():
     """Import what the page shows."""
+    from html import escape
     from pathlib import Path
 
     import marimo as mo
 
     import ballrace as br
+    from ballrace._text import printable
     from ballrace.errors import BallraceError
     from ballrace.explore import at_rest, beside, chosen, live, picture, saved, sensor
     from ballrace.explore.controls import controls, taken
@@ -28,18 +30,21 @@ def parts():
     # marimo has figures follow the width of the page; where plotly does, too, they lose their height.
     CONFIG = {**ALONE, "responsive": False}
 
-    def refused(error):
-        """Return an error as the page shows it, in words alone."""
-        from html import escape
+    # Whatever text a file or a user brings is shown by these two: as words, never as Markdown or HTML.
+    def said(text):
+        """Return a text as the page shows it."""
+        return mo.Html(f"<p>{escape(printable(text))}</p>")
 
-        return mo.Html(f'<p class="refused" role="alert">{escape(str(error))}</p>')
+    def refused(error):
+        """Return an error as the page shows it."""
+        return mo.Html(f'<p class="refused" role="alert">{escape(printable(str(error)))}</p>')
 
     given = mo.cli_args().get("file")
     file = Path(given) if given else None
     opened = None if file is None else chosen.read_file(file)
     return (
-        BallraceError, CONFIG, DAMAGE, Runner, SURFACES, Settings, at_rest, beside, br, chosen, controls, file,
-        live, mo, opened, picture, refused, saved, sensor, taken,
+        BallraceError, CONFIG, DAMAGE, Runner, SURFACES, Settings, at_rest, beside, br, chosen, controls, escape,
+        file, live, mo, opened, picture, refused, said, saved, sensor, taken,
     )  # fmt: skip
 
 
@@ -180,7 +185,7 @@ def running(Runner, mo):
 
 
 @app.cell
-def panel(how, knob_elements, mo, name_elements, run_elements, size_elements, trouble, what):
+def panel(how, knob_elements, mo, name_elements, run_elements, said, size_elements, trouble, what):
     """Show all controls."""
 
     def of(*names):
@@ -188,7 +193,7 @@ def panel(how, knob_elements, mo, name_elements, run_elements, size_elements, tr
 
     by = {"name": name_elements, "size": size_elements, "file": []}
     mo.vstack([
-        mo.md("# ballrace explore"), how, *by[how.value], mo.md(what) if trouble is None else trouble,
+        mo.md("# ballrace explore"), how, *by[how.value], said(what) if trouble is None else trouble,
         *of("radial_load", "axial_load", "moment", "speed_rpm", "outer_rpm", "clearance", "oil", "temperature_c"),
         mo.hstack(of("damage", "on"), justify="start", wrap=True),
         *of("width_mm", "angle_deg", "housing_mass", "housing_frequency", "noise"),
@@ -253,7 +258,7 @@ def stopped(runner, stop):
 
 
 @app.cell
-def progress(get_out, latest, mo, refused, runner, set_out, tick):
+def progress(escape, get_out, latest, mo, refused, runner, set_out, tick):
     """Look after the run twice a second: a tick makes this cell run again."""
     _ = tick.value
     run = runner.newest
@@ -269,9 +274,10 @@ def progress(get_out, latest, mo, refused, runner, set_out, tick):
             if run.scene == latest["scene"]
             else " The run is of other settings than those above."
         )
+        text = f"{run.state}, {run.share:.0%}.{fits}"
         state = mo.Html(
             f'<p class="progress" role="status"><progress value="{run.share:.3f}" max="1"></progress> '
-            f"{run.state}, {run.share:.0%}.{fits}</p>"
+            f"{escape(text)}</p>"
         )
     state
 
@@ -341,7 +347,7 @@ def received(BallraceError, beside, begun_with, dropped_file, mo, record_fs, ref
 @app.cell
 def verdict(
     BallraceError, CONFIG, begun, beside, column, dropped, mo, out, rates, record_rpm, record_unit, refused,
-    simulated,
+    said, simulated,
 ):  # fmt: skip
     """Say what the record is of, and lay its envelope over that of the run."""
 
@@ -351,11 +357,13 @@ def verdict(
             measured, found = beside.judged(
                 dropped, column.value, scene, speed_rpm=record_rpm.value or None, unit=record_unit.value
             )  # fmt: skip
+            fig = beside.overlaid(simulated, measured, rates, found)
         except BallraceError as error:
             return [refused(error)]
-        fig = beside.overlaid(simulated, measured, rates, found)
+        shorter = beside.left_out(dropped, measured)
         return [
             mo.Html(f'<div class="facts verdict">{found._repr_html_()}</div>'),
+            *([said(shorter)] if shorter else []),
             mo.ui.plotly(fig, config=CONFIG),
         ]
 

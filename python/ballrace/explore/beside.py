@@ -22,11 +22,15 @@ if TYPE_CHECKING:
     from ..frequencies.operating import FaultFrequencies
     from ..scene import Scene
 
-__all__ = ["Dropped", "judged", "overlaid", "received"]
+__all__ = ["Dropped", "judged", "left_out", "overlaid", "received"]
 
 
 _SHOWN = 600.0
 """Highest frequency that is shown of a record without a run [Hz]."""
+
+
+_LONGEST = 2_000_000
+"""Samples of a record that are judged, from its beginning: a verdict on them takes some 10 s and 1 GB."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -74,7 +78,7 @@ def judged(
     speed_rpm: float | None,
     unit: str | None,
 ) -> tuple[Channel, Diagnosis]:
-    """Return the record's channel, and the verdict on it for the bearing of a scene.
+    """Return the beginning of the record's channel, and the verdict on it for the bearing of a scene.
 
     The speed is by default that of the file, or that of the scene [rev/min]; the unit counts where the file
     does not have it.
@@ -84,7 +88,8 @@ def judged(
     SceneError
         An argument is not usable, or the speed is missing.
     """
-    channel = dropped.record.channel(column)
+    whole = dropped.record.channel(column)
+    channel = replace(whole, x=whole.x[:_LONGEST])
     if unit is not None and not channel.unit:
         channel = replace(channel, unit=unit)
     if channel.unit == "g":
@@ -95,6 +100,15 @@ def judged(
         return channel, diagnose(channel, healthy, 0.0, outer_rpm=speed_rpm)
     speed = speed_rpm if speed_rpm is not None or channel.shaft is not None else speed_of(scene)
     return channel, diagnose(channel, healthy, speed)
+
+
+def left_out(dropped: Dropped, judged: Channel) -> str:
+    """Return what of a record was too long to be judged, in words; empty if nothing was."""
+    total = dropped.record.n_samples
+    if judged.n_samples == total:
+        return ""
+    seconds, all_of_it = judged.n_samples / judged.fs, total / judged.fs
+    return f"Judged are the first {seconds:.3g} s of the record's {all_of_it:.4g} s; br.diagnose takes all of it."
 
 
 def overlaid(

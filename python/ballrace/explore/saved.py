@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import json
+import re
 import tempfile
+from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from .._text import printable
 from .running import FS
 
 if TYPE_CHECKING:
@@ -37,7 +40,7 @@ def notebook(scene: Scene, duration: float, noise: float) -> bytes:
     density = noise**2 / (0.5 * FS)
     name = scene.name or "A bearing"
     cells = [
-        ("markdown", f"# {name}\n\nA bearing at rest, a run of it, and its envelope."),
+        ("markdown", f"# {_worded(name)}\n\nA bearing at rest, a run of it, and its envelope."),
         ("code", f"import ballrace as br\n\nscene = br.Scene.from_toml({_quoted(scene)})\nscene"),
         ("code", "br.equilibrium(scene)"),
         ("code", "br.stiffness(scene), br.rating_life(scene)"),
@@ -57,6 +60,11 @@ def notebook(scene: Scene, duration: float, noise: float) -> bytes:
         "nbformat_minor": 5,
     }
     return json.dumps(written, indent=1, ensure_ascii=False).encode()
+
+
+def _worded(text: str) -> str:
+    """Return a text that Markdown shows as it is, in one line: no markup, no link, no picture."""
+    return re.sub(r"([\\`*_{}\[\]()#+\-.!|~$])", r"\\\1", escape(" ".join(printable(text).split())))
 
 
 def _quoted(scene: Scene) -> str:

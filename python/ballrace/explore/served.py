@@ -1,4 +1,4 @@
-"""The page on loopback: marimo in a process of its own, behind a token."""
+"""The page on loopback: a process of its own, behind a token, that ends with this one."""
 
 from __future__ import annotations
 
@@ -8,25 +8,33 @@ import secrets
 import socket
 import subprocess
 import sys
-import tempfile
 import time
-from contextlib import contextmanager
-from pathlib import Path
+from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING
 from urllib.error import URLError
-from urllib.request import urlopen
+from urllib.request import ProxyHandler, build_opener
 
 from .._libraries import needed
 from ..errors import BallraceError, SceneError
 from .chosen import read_file
+from .guard import POLICY
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+    from pathlib import Path
 
 __all__ = ["HOST", "Page", "served"]
 
 HOST = "127.0.0.1"
 """No other machine reaches it."""
+
+_PROGRAM = """
+import sys
+count = int(sys.argv[1])
+sys.path[:], sys.argv[1:] = sys.argv[2 : 2 + count], sys.argv[2 + count :]
+from ballrace.explore.serving import serve
+serve()
+"""
 
 _PATIENCE = 60.0
 """How long a page may take to answer first [s]."""
@@ -78,33 +86,39 @@ def served(file: Path | None = None, port: int | None = None) -> Iterator[Page]:
         file.open("rb").close()
     port = _free(port)
     token = secrets.token_urlsafe(24)
-    with tempfile.TemporaryDirectory() as folder:
-        # On the command line others of this machine could read it.
-        secret = Path(folder) / "token"
-        secret.touch(mode=0o600)
-        secret.write_text(token, encoding="ascii")
-        process = subprocess.Popen(_command(port, secret, file), env=_environment())
-        try:
-            _answers(process, port)
-            yield Page(f"http://{HOST}:{port}/?access_token={token}", process)
-        finally:
-            process.terminate()
-            try:
-                process.wait(5.0)
-            except subprocess.TimeoutExpired:
-                process.kill()
-                process.wait()
+    process = subprocess.Popen(_command(port, file), stdin=subprocess.PIPE, env=_environment())
+    try:
+        _send(process, token)
+        _answers(process, port)
+        yield Page(f"http://{HOST}:{port}/?access_token={token}", process)
+    finally:
+        _end(process)
 
 
-def _command(port: int, secret: Path, file: Path | None) -> list[str]:
-    notebook = Path(__file__).with_name("app.py")
-    options = [
-        "--headless", "--no-sandbox", "--no-check", "--token", f"--token-password-file={secret}", f"--host={HOST}",
-        f"--port={port}",
-    ]  # fmt: skip
-    # Quiet: it would print the address without the token as well.
-    begin = [sys.executable, "-m", "marimo", "-q", "run", str(notebook), *options]
-    return begin if file is None else [*begin, "--", "--file", str(file.absolute())]
+def _command(port: int, file: Path | None) -> list[str]:
+    """Return the command of the server: it finds modules as this process does, but not in the working folder."""
+    path = [os.path.abspath(each) for each in sys.path if each]  # noqa: PTH100 (resolves no links)
+    given = [] if file is None else [str(file.absolute())]
+    return [sys.executable, "-P", "-c", _PROGRAM, str(len(path)), *path, str(port), *given]
+
+
+def _send(process: subprocess.Popen[bytes], token: str) -> None:
+    """Send the token by the pipe: others of this machine could read it on the command line."""
+    assert process.stdin is not None
+    with suppress(BrokenPipeError):
+        process.stdin.write(f"{token}\n".encode("ascii"))
+        process.stdin.flush()
+
+
+def _end(process: subprocess.Popen[bytes]) -> None:
+    process.terminate()
+    assert process.stdin is not None
+    process.stdin.close()
+    try:
+        process.wait(5.0)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.wait()
 
 
 def _environment() -> dict[str, str]:
@@ -128,13 +142,18 @@ def _free(port: int | None) -> int:
 
 def _answers(process: subprocess.Popen[bytes], port: int) -> None:
     """Wait until the page answers."""
+    # The environment may name a proxy, which does not lead here.
+    directly = build_opener(ProxyHandler({}))
+    version = importlib.metadata.version("marimo")
     until = time.monotonic() + _PATIENCE
     while time.monotonic() < until:
         if process.poll() is not None:
-            version = importlib.metadata.version("marimo")
             raise BallraceError(f"marimo {version} ended with status {process.returncode}")
         try:
-            with urlopen(f"http://{HOST}:{port}/health", timeout=1.0):
+            with directly.open(f"http://{HOST}:{port}/health", timeout=1.0) as answer:
+                if answer.headers[POLICY] is None:
+                    text = f"marimo {version} serves the page without its Content-Security-Policy"
+                    raise BallraceError(f"{text}; install another version")
                 return
         except (URLError, OSError):
             time.sleep(0.05)

@@ -203,7 +203,9 @@ def _housing(of: Settings, moved: set[str]) -> dict[str, Any]:
     assert frequency is not None
     support = of.base.outer_ring.support
     ratio = mass * frequency / (before[0] * before[1])  # type: ignore[operator]
-    stiffness = mass * (2.0 * math.pi * frequency) ** 2
+    # A power would raise an error of its own where this is too large.
+    rate = 2.0 * math.pi * frequency
+    stiffness = mass * rate * rate
     changes: dict[str, Any] = {"outer_ring.mass": mass}
     for axis in "xyz":
         held = getattr(support, axis)
