@@ -364,7 +364,8 @@ def test_names_come_from_hashes_only(tmp_path: Path) -> None:
     names = {
         path.relative_to(tmp_path).as_posix() for path in tmp_path.rglob("*") if path.is_file()
     }
-    fixed = {*NAMES, "cases.parquet", "manifest.parquet", "locks/0-of-1"}
+    locks = {"locks/0-of-1", "locks/description"}
+    fixed = {*NAMES, "cases.parquet", "manifest.parquet", *locks}
     assert {
         name for name in names if not re.fullmatch(r"runs/(results|signals)/\w{32}\.parquet", name)
     } == {f"runs/{name}" for name in fixed}
