@@ -66,7 +66,7 @@ pub use explain::{
     TextureExplanation, Variant, explain,
 };
 pub use features::{Feature, FeatureOptions, feature_columns, features, signal_features};
-pub use model::{Body, BodyId, BodyKind, DOFS, Degree, Dof, Layout, Model, Race, Scales};
+pub use model::{Body, BodyId, BodyKind, DOFS, Degree, Dof, Layout, Model, Placed, Race, Scales};
 pub use reduction::{Obstacle, Omission, Reduction};
 pub use run::{Run, Simulation, Snapshot, simulate, simulate_into, simulate_with_progress};
 pub use scene::Scene;
@@ -79,7 +79,7 @@ pub use simd::{Distrust, InstructionSet, UnknownInstructionSet};
 pub use statics::start::{Start, start};
 pub use statics::{
     BallEquilibrium, ContactEquilibrium, DynamicCoefficients, Equilibrium, EquivalentLoads,
-    LoadDistribution, Placed, RaceControl, Stiffness, compile, dynamic_coefficients, equilibrium,
+    LoadDistribution, RaceControl, Stiffness, compile, dynamic_coefficients, equilibrium,
     equilibrium_under, load_distribution, stiffness,
 };
 

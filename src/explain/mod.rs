@@ -17,14 +17,14 @@ use crate::base::error::Result;
 use crate::base::interrupt;
 use crate::contact::Sighted;
 use crate::dynamics::Dynamics;
-use crate::model::{Model, Race};
+use crate::model::{Model, Placed, Race};
 use crate::reduction::{Obstacle, Omission, Reduction};
 use crate::run;
 use crate::scene::{Defect, Doubt, Scene, Surface};
 use crate::signals::touched::{MostLoaded, Touched, compiled, is_there};
 use crate::statics::compile;
 use crate::statics::start::{Start, start};
-use crate::statics::{DefectPasses, Placed, describe, place};
+use crate::statics::{DefectPasses, describe, place};
 
 pub use cost::Cost;
 pub use law::LawExplanation;

@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use crate::base::error::Result;
 use crate::base::quantities::number;
+use crate::model::HeaviestContact;
 use crate::scene::{Defect, Scene, Surface};
 use crate::statics::DefectPasses;
 
@@ -38,16 +39,16 @@ pub(super) fn of(scene: &Scene) -> Result<Vec<PitExplanation>> {
     let mut explanations = Vec::new();
     for (name, defect) in scene.defects.iter().filter(|(_, defect)| defect.is_pit()) {
         if let Some(meeting) = DefectPasses::of(scene, defect)? {
-            explanations.extend(beneath(name, defect, &meeting));
+            let heaviest = meeting.heaviest(defect);
+            explanations.extend(heaviest.and_then(|contact| beneath(name, defect, &contact)));
         }
     }
     Ok(explanations)
 }
 
-fn beneath(name: &str, defect: &Defect, meeting: &DefectPasses) -> Option<PitExplanation> {
-    let (pit, load, race) = meeting.pit(defect)?;
-    let hertz = &meeting.model.rows[defect.row].hertz[race];
-    let (lost, released) = pit.takes(hertz, load)?;
+fn beneath(name: &str, defect: &Defect, of: &HeaviestContact) -> Option<PitExplanation> {
+    let (load, hertz) = (of.load, &of.model.rows[defect.row].hertz[of.race]);
+    let (lost, released) = of.beneath(defect).takes(hertz, load)?;
     let contact = [hertz.half_width, hertz.half_length].map(|half| 2.0 * half * load.cbrt());
     let size = [defect.width.largest(), defect.extent()];
     Some(PitExplanation {
@@ -60,7 +61,7 @@ fn beneath(name: &str, defect: &Defect, meeting: &DefectPasses) -> Option<PitExp
         // F = K δ^{3/2}.
         depth: lost * hertz.approach(load) / (1.5 * load),
         released,
-        duration: (size[0] + contact[0]) / meeting.model.rolling_speed(defect.row),
+        duration: (size[0] + contact[0]) / of.model.rolling_speed(defect.row),
     })
 }
 

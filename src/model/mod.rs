@@ -3,6 +3,7 @@
 //! Bodies stand in one order everywhere: outer ring, inner ring, balls row by row. The state vector holds
 //! (x, y, z, θ) of every body, then (vx, vy, vz, ω) of every body; [`Layout`] says where, also of what tilts and spins freely.
 
+mod at_rest;
 mod body;
 mod compile;
 mod defects;
@@ -13,7 +14,10 @@ mod layout;
 mod loads;
 mod nodes;
 mod oil;
+mod passes;
+mod place;
 mod race;
+mod reference;
 mod ring;
 mod rolling;
 mod scales;
@@ -26,6 +30,7 @@ use crate::contact::{BallSide, Pair, ZoneSlices};
 use crate::scene::{Component, Scene};
 use crate::simd::{InstructionSet, LANES};
 
+pub(crate) use at_rest::{AtRest, HeaviestContact, RaceLoads};
 pub use body::{Body, Degree};
 pub(crate) use compile::compile_placed;
 pub(crate) use defects::{ball_defect, race_defect};
@@ -34,6 +39,9 @@ pub(crate) use given::GivenMotions;
 pub(crate) use layout::RINGS;
 pub use layout::{BodyId, BodyKind, Layout, Race};
 pub(crate) use loads::{LoadModel, MomentModel};
+pub(crate) use passes::compile;
+pub use place::Placed;
+pub(crate) use place::place;
 pub use ring::layout_of;
 pub(crate) use ring::{CoupledModel, RingModel};
 pub(crate) use rolling::{Between, PureRolling};

@@ -8,11 +8,11 @@ use super::accuracy;
 use super::settle::{self, Settled};
 use crate::base::error::Result;
 use crate::base::memory;
-use crate::model::Model;
+use crate::model::{Model, Placed};
 use crate::scene::{Scene, TimeFunction};
 use crate::signals::{Accuracy, Bandwidth, Demand, Signals};
 use crate::statics::start::Start;
-use crate::statics::{Placed, compile, place};
+use crate::statics::{compile, place};
 
 /// A scene as it will run.
 #[derive(Debug, Clone)]

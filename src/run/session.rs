@@ -15,12 +15,11 @@ use crate::base::error::{Error, Result};
 use crate::base::words::{Unfit, Words};
 use crate::dynamics::Dynamics;
 use crate::integrate::Options;
-use crate::model::{Degree, Dof, Model, Race};
+use crate::model::{Degree, Dof, Model, Placed, Race};
 use crate::reduction::Reduction;
 use crate::scene::{Profile, Scene, TimeFunction};
 use crate::signals::{Keep, Recorder, Sampling, Signals, Statistics};
 use crate::simd::Distrust;
-use crate::statics::Placed;
 use crate::statics::start::start;
 
 /// A run between its pieces.

@@ -9,9 +9,9 @@ use super::Run;
 use super::prepare::Prepared;
 use super::settle::Settled;
 use crate::base::error::{Error, Result};
+use crate::model::Placed;
 use crate::scene::{Scene, TimeFunction};
 use crate::signals::{Accuracy, Statistics};
-use crate::statics::Placed;
 
 /// A [`Simulation`](crate::Simulation) at a time: what it needs to go on from there, bit by bit.
 ///

@@ -15,9 +15,8 @@ use serde::Serialize;
 use crate::contact::{Pair, Sighted, SurfaceDefect, Toward, ZoneSlices};
 use crate::dynamics::Dynamics;
 use crate::integrate::DenseStep;
-use crate::model::{Model, Race, ball_defect, race_defect};
+use crate::model::{Model, Placed, Race, ball_defect, race_defect};
 use crate::scene::{Defect, Doubt, Scene, Surface};
-use crate::statics::Placed;
 
 /// What became of a defect.
 #[derive(Debug, Clone, PartialEq, Serialize)]

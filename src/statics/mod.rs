@@ -10,19 +10,18 @@
 //! held: loose balls leave the race that no longer presses them, and often hang between the races on the cage.
 //!
 //! What follows from it: [`stiffness()`], which the rings' Newton solve forms anyway, and [`load_distribution`] over
-//! a turn of the cage; [`dynamic_coefficients`] adds what depends on velocities. So does the place of a defect that is to lie where contacts run.
+//! a turn of the cage; [`dynamic_coefficients`] adds what depends on velocities. [`compile()`] and [`place()`]
+//! answer what compiling a scene asks of the bearing at rest.
 
 mod arms;
+mod at_rest;
 mod ball;
 mod cage;
 mod coefficients;
-mod compile;
 mod distribution;
 mod fallen;
 mod guess;
 mod gyroscopic;
-mod loads;
-mod place;
 mod polish;
 mod problem;
 mod residual;
@@ -37,25 +36,45 @@ mod stiffness;
 mod tilted;
 mod unknowns;
 
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
 use serde::Serialize;
 
 use crate::base::error::Result;
 use crate::base::interrupt;
 use crate::inspect::{self, MomentOnRing, RaceFilm};
-use crate::model::{Ball, BodyId, Dof, Model, Race};
+use crate::model::{self, Ball, BodyId, Dof, Model, Placed, Race};
 use crate::reduction::axial_places;
 use crate::scene::{Doubt, Scene};
+pub(crate) use at_rest::DefectPasses;
+use at_rest::Equilibria;
 pub use coefficients::{DynamicCoefficients, dynamic_coefficients};
-pub use compile::compile;
 pub use distribution::{EquivalentLoads, LoadDistribution, load_distribution};
 pub(crate) use fallen::Spacing;
-pub(crate) use place::DefectPasses;
-pub use place::{Placed, place};
 use problem::Problem;
 use residual::Residual;
 pub use rolling::RaceControl;
 pub use stiffness::{Stiffness, stiffness};
 use unknowns::{RingStiffness, Rings};
+
+/// Checks a scene, places the defects that are to lie where contacts run, and compiles it.
+///
+/// # Errors
+/// [`crate::Error::Scene`] names the first field that is not usable, or the environment variable `BALLRACE_SIMD` where it
+/// names no level of this processor.
+pub fn compile(scene: &Scene) -> Result<Model> {
+    model::compile(scene, &Equilibria)
+}
+
+/// The scene with numbers for the axial place of every defect and for what its walls say, and where the places come from, by the
+/// defects' names.
+///
+/// # Errors
+/// [`crate::Error::Scene`] for a scene that is not usable.
+pub fn place(scene: &Scene) -> Result<(Cow<'_, Scene>, BTreeMap<String, Placed>)> {
+    model::place(scene, &Equilibria)
+}
 
 /// Residual over the sum of the acting forces that counts as zero.
 const TOLERANCE: f64 = 1e-10;

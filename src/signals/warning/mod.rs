@@ -7,12 +7,12 @@ use std::f64::consts::PI;
 use serde::Serialize;
 
 use crate::inspect;
+use crate::model::Placed;
 use crate::scene::Doubt;
 use crate::signals::kinematics::RowKinematics;
 use crate::signals::touched::Touched;
 use crate::signals::{Accuracy, Signals};
 use crate::simd::Distrust;
-use crate::statics::Placed;
 
 /// Residual of the accelerations above which a run is warned of. Measured on the faulted wheel bearing in 140 runs
 /// over slip speeds of 1e-4 to 0.1 m/s, damping of 0 to 20 s/m and rtol of 1e-7 to 1e-1: above it the error against

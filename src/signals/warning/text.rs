@@ -3,10 +3,10 @@
 use std::fmt::{Display, Formatter, Result};
 
 use super::Warning;
+use crate::model::Placed;
 use crate::signals::Accuracy;
 use crate::signals::kinematics::RowKinematics;
 use crate::simd::Distrust;
-use crate::statics::Placed;
 
 impl Display for Warning {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
