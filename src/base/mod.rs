@@ -1,8 +1,9 @@
 //! What every module uses: errors, numbers in messages, memory that is checked beforehand, stopping from outside, threads, wall time, words that
-//! runs remember.
+//! runs remember, complete lists of variants.
 
 pub(crate) mod clock;
 pub(crate) mod error;
+pub(crate) mod every;
 pub(crate) mod interrupt;
 pub(crate) mod memory;
 pub(crate) mod pool;

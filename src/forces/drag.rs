@@ -1,6 +1,6 @@
 //! Drag of oil in the balls' way: −½ ρ X C_d (π D²/4) |v| v on a ball, seen from the housing (model section 12.9).
 
-use super::{Force, ForceSums, Instant, Use};
+use super::{Account, Damper, Force, ForceSums, Instant, Use};
 use crate::model::{BodyId, Dof, Model};
 
 /// On the balls of all rows.
@@ -35,6 +35,15 @@ impl Force for Drag {
                 }
             }
         }
+    }
+
+    /// None: what it takes is the oil's, of [`power`].
+    fn account(&self, _model: &Model, _y: &[f64]) -> Account {
+        Account::default()
+    }
+
+    fn dampers(&self, _model: &Model) -> Vec<Damper> {
+        Vec::new()
     }
 }
 

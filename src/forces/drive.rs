@@ -1,6 +1,6 @@
 //! What turns the rings: a torque on the inner ring, or prescribed speeds, whose motion is known without a force.
 
-use super::{Force, ForceSums, Instant, RingWrench, Use};
+use super::{Account, Damper, Force, ForceSums, Instant, RingWrench, Use};
 use crate::model::{Model, Race};
 use crate::scene::Drive;
 
@@ -29,6 +29,15 @@ impl Force for DriveTorque {
             };
             sums.add(Race::Inner, &torque);
         }
+    }
+
+    /// None: a torque does work, and stores and takes nothing.
+    fn account(&self, _model: &Model, _y: &[f64]) -> Account {
+        Account::default()
+    }
+
+    fn dampers(&self, _model: &Model) -> Vec<Damper> {
+        Vec::new()
     }
 }
 

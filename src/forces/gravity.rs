@@ -1,6 +1,6 @@
 //! Gravity: F = m g on every body, energy −m g · r.
 
-use super::{Account, Force, ForceSums, RingWrench, Use};
+use super::{Account, Damper, Force, ForceSums, RingWrench, Use};
 use crate::model::{BodyId, Dof, Model, Race};
 
 /// On all bodies.
@@ -29,6 +29,10 @@ impl Force for Gravity {
             gravity: energy(model, y),
             ..Account::default()
         }
+    }
+
+    fn dampers(&self, _model: &Model) -> Vec<Damper> {
+        Vec::new()
     }
 
     fn at_start(&self, model: &Model, race: Race) -> RingWrench {

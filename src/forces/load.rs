@@ -4,7 +4,7 @@
 
 use nalgebra::{Vector2, Vector3};
 
-use super::{Force, ForceSums, Instant, RingWrench, Use};
+use super::{Account, Damper, Force, ForceSums, Instant, RingWrench, Use};
 use crate::model::{LoadModel, Model, Race};
 use crate::scene::TimeFunction;
 
@@ -42,6 +42,15 @@ impl Force for Loads {
                 sums.add(race, &wrench);
             }
         }
+    }
+
+    /// None: loads do work, and store and take nothing.
+    fn account(&self, _model: &Model, _y: &[f64]) -> Account {
+        Account::default()
+    }
+
+    fn dampers(&self, _model: &Model) -> Vec<Damper> {
+        Vec::new()
     }
 
     /// The forces; moments depend on how a ring tilts ([`moment`]).

@@ -80,14 +80,10 @@ pub(crate) trait Force: Debug + Sync {
     }
 
     /// What it stores and takes in a state.
-    fn account(&self, _model: &Model, _y: &[f64]) -> Account {
-        Account::default()
-    }
+    fn account(&self, model: &Model, y: &[f64]) -> Account;
 
     /// Its dampers, for the message of a run whose steps collapse.
-    fn dampers(&self, _model: &Model) -> Vec<Damper> {
-        Vec::new()
-    }
+    fn dampers(&self, model: &Model) -> Vec<Damper>;
 
     /// What it does to a ring at the start, wherever the ring is: the force, and a moment in the ring's frame about its centre of
     /// mass. Springs of supports are no part of it.

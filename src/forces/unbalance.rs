@@ -13,7 +13,7 @@
 
 use nalgebra::Vector3;
 
-use super::{Account, Force, Instant, RingWrench, State, Use, drive};
+use super::{Account, Damper, Force, Instant, RingWrench, State, Use, drive};
 use crate::contact::{V2, cross};
 use crate::model::{DOFS, Dof, Model, Race, UnbalanceModel};
 use crate::tilt::Frame;
@@ -59,6 +59,10 @@ impl Force for Unbalances {
             gravity,
             ..Account::default()
         }
+    }
+
+    fn dampers(&self, _model: &Model) -> Vec<Damper> {
+        Vec::new()
     }
 
     /// Centrifugal forces, the ring at angle 0.

@@ -2,6 +2,7 @@
 
 use super::AxialPlaces;
 use super::course::{Course, Prescribed};
+use crate::base::every::every;
 use crate::forces;
 use crate::model::{BodyId, Degree, Dof, Model, Race};
 
@@ -19,17 +20,17 @@ pub(super) enum Reason {
 }
 
 impl Reason {
-    pub(super) const ALL: [Self; 9] = [
-        Self::Held,
-        Self::Driven(Race::Outer),
-        Self::Driven(Race::Inner),
-        Self::NoMoment,
-        Self::Mirror,
-        Self::Copy,
-        Self::Rolling,
-        Self::AxiallyFixed,
-        Self::Idle,
-    ];
+    pub(super) const ALL: [Self; 9] = every!(Reason:
+        Held,
+        Driven(Race::Outer),
+        Driven(Race::Inner),
+        NoMoment,
+        Mirror,
+        Copy,
+        Rolling,
+        AxiallyFixed,
+        Idle,
+    );
 
     pub(super) fn describe(self) -> (&'static str, &'static str) {
         match self {

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::absent;
 use super::ring::Support;
 use super::{Contact, Friction, Lubricant, Material, Texture, defaults};
 
@@ -70,7 +71,7 @@ pub struct Row {
     #[serde(default)]
     pub inner_waviness: Vec<Waviness>,
     /// Texture of races and balls, added to `outer_waviness` and `inner_waviness`; absent: smooth.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "absent::none")]
     pub texture: Option<Texture>,
     /// Diameter error of each ball \[m\]; empty: none.
     #[serde(default)]
@@ -94,7 +95,7 @@ pub struct Row {
     #[serde(default)]
     pub friction: Option<Friction>,
     /// Oil of the row's contacts, in place of all of the scene's `lubricant`; absent: that of the scene.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "absent::none")]
     pub lubricant: Option<Lubricant>,
 }
 

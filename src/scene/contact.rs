@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::numbers::{BoundedNumber, NumberRange};
+use super::numbers::BoundedNumber;
 
 /// Contact of a ball and a race: elastic law, slices, damping.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -81,18 +81,8 @@ impl NormalLaw {
                 constant,
                 length_ratio,
             } => vec![
-                BoundedNumber {
-                    field: "iso16281.constant",
-                    value: constant,
-                    range: NumberRange::Within(1.0..=1e16),
-                    unit: "",
-                },
-                BoundedNumber {
-                    field: "iso16281.length_ratio",
-                    value: length_ratio,
-                    range: NumberRange::Within(1e-3..=10.0),
-                    unit: "",
-                },
+                BoundedNumber::within("iso16281.constant", constant, 1.0..=1e16, ""),
+                BoundedNumber::within("iso16281.length_ratio", length_ratio, 1e-3..=10.0, ""),
             ],
             Self::Hertz => Vec::new(),
         }
@@ -239,5 +229,20 @@ impl Cage {
             damping,
             play,
         }
+    }
+
+    /// Its numbers.
+    pub(super) fn numbers(&self) -> [BoundedNumber; 3] {
+        // Named one by one, so that the compiler asks about a new field.
+        let Self {
+            stiffness,
+            damping,
+            play,
+        } = *self;
+        [
+            BoundedNumber::within("stiffness", stiffness, 0.0..=1e15, "N/m"),
+            BoundedNumber::within("damping", damping, 0.0..=1e12, "N s/m"),
+            BoundedNumber::within("play", play, 0.0..=1.0, "m"),
+        ]
     }
 }

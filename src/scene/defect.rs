@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+use super::absent;
 use super::time::{number_or_map, number_or_word};
 
 /// A defect of one body (model section 7). It turns with its body.
@@ -23,7 +24,7 @@ pub struct Defect {
     #[serde(default)]
     pub axial_offset: AxialOffset,
     /// Outline; absent: a patch of `length` and `width`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "absent::none")]
     pub shape: Option<DefectShape>,
     /// Axial length L_f \[m\]; 0 or absent for a cap, which is as long as it is wide, and for a round pit.
     #[serde(default)]
@@ -34,7 +35,7 @@ pub struct Defect {
     #[serde(default)]
     pub edge_radius: f64,
     /// Walls from which distance and radius of the fault circles follow; absent: `width` and `edge_radius` are those given.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "absent::none")]
     pub walls: Option<Walls>,
     /// Recessed circles between the edges; absent: no floor.
     #[serde(default)]

@@ -3,6 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::Scene;
+use super::absent;
+use super::numbers::BoundedNumber;
 use super::ring::{Mount, RingName};
 use super::time::TimeFunction;
 use crate::base::error::{Error, Result};
@@ -19,7 +21,7 @@ pub struct Load {
     /// Force along the direction \[N\].
     pub force: TimeFunction,
     /// Where it acts, in the ring's frame, which tilts but does not turn with the ring \[m\]; absent: the ring's origin.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "absent::none")]
     pub at: Option<[f64; 3]>,
 }
 
@@ -86,7 +88,7 @@ pub struct Unbalance {
     #[serde(default)]
     pub angle: f64,
     /// Axial place in the ring's frame \[m\]; two unbalances at different places make a couple. Absent: 0.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "absent::none")]
     pub axial_position: Option<f64>,
 }
 
@@ -99,6 +101,21 @@ impl Unbalance {
             angle,
             axial_position: None,
         }
+    }
+
+    /// Its numbers that are checked by themselves.
+    pub(super) fn numbers(&self) -> [BoundedNumber; 2] {
+        // Named one by one, so that the compiler asks about a new field.
+        let Self {
+            ring: _,
+            moment,
+            angle,
+            axial_position: _,
+        } = *self;
+        [
+            BoundedNumber::within("moment", moment, 0.0..=1e6, "kg m"),
+            BoundedNumber::within("angle", angle, -1e3..=1e3, "rad"),
+        ]
     }
 }
 

@@ -13,6 +13,7 @@
 //! assert_eq!(wide.rows[0].clearance, 20e-6);
 //! ```
 
+mod absent;
 mod antiderivative;
 mod approximations;
 mod bearing;
@@ -108,10 +109,10 @@ pub struct Scene {
     #[serde(default)]
     pub friction: Friction,
     /// Oil between balls and races, whose traction replaces `friction`; absent: dry.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "absent::none")]
     pub lubricant: Option<Lubricant>,
     /// How balls spin; absent: about the bearing's axis.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "absent::none")]
     pub spin: Option<Spin>,
     /// Cage; absent: the balls are not linked.
     #[serde(default)]
@@ -120,7 +121,7 @@ pub struct Scene {
     pub drive: Drive,
     /// Given speed of the outer ring Ω_o(t) \[rad/s\], counter-clockwise about z; must not jump. Its waviness, texture and defects turn
     /// with it; loads, gravity and its support do not. Absent: it stands, or turns as its support lets it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "absent::none")]
     pub outer_speed: Option<TimeFunction>,
     /// Gravity \[m/s²\]; 9.81 along −y by default.
     #[serde(default = "defaults::gravity")]
@@ -129,13 +130,13 @@ pub struct Scene {
     #[serde(default)]
     pub loads: BTreeMap<String, Load>,
     /// Moments by name.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    #[serde(default, skip_serializing_if = "absent::empty")]
     pub moments: BTreeMap<String, Moment>,
     /// Unbalances by name.
     #[serde(default)]
     pub unbalances: BTreeMap<String, Unbalance>,
     /// Forces on rings that depend on their places, by name.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    #[serde(default, skip_serializing_if = "absent::empty")]
     pub table_forces: BTreeMap<String, TableForce>,
     /// Forces on rings computed by the caller's code, by name; a document has none.
     #[serde(skip_deserializing, skip_serializing_if = "RingForces::is_empty")]
@@ -348,8 +349,8 @@ impl Scene {
             ring_forces: RingForces::default(),
             ..self.clone()
         };
-        let mut document = serde_json::to_value(bare).expect("a scene is a JSON document");
-        path::show_absent(&mut document);
+        let document = absent::written_out(|| serde_json::to_value(bare));
+        let mut document = document.expect("a scene is a JSON document");
         for (path, value) in changes {
             path::set(&mut document, path, value.clone())?;
         }

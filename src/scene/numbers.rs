@@ -12,6 +12,23 @@ pub(super) struct BoundedNumber {
     pub unit: &'static str,
 }
 
+impl BoundedNumber {
+    /// One within a range, both ends too.
+    pub fn within(
+        field: &'static str,
+        value: f64,
+        range: RangeInclusive<f64>,
+        unit: &'static str,
+    ) -> Self {
+        Self {
+            field,
+            value,
+            range: NumberRange::Within(range),
+            unit,
+        }
+    }
+}
+
 /// What is allowed of a number.
 pub(super) enum NumberRange {
     /// Both ends too.

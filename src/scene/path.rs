@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use serde_json::{Map, Value, json};
+use serde_json::Value;
 
 use super::expected;
 use crate::base::error::{Error, Result};
@@ -68,55 +68,6 @@ pub(super) fn set(document: &mut Value, path: &str, value: Value) -> Result<()> 
     }
     *place = value;
     Ok(())
-}
-
-/// Adds as null what a scene leaves out where it is absent, so that [`set`] finds its place.
-pub(super) fn show_absent(scene: &mut Value) {
-    let mut show = |parts: &[&str], fields: &[&str]| {
-        for part in all_of(scene, parts) {
-            for field in fields {
-                part.entry(*field).or_insert(Value::Null);
-            }
-        }
-    };
-    show(&[], &["lubricant", "spin", "outer_speed"]);
-    show(&["rows", ALL, "texture"], &["orders", "reference_load"]);
-    show(&["rows", ALL], &["lubricant", "texture"]);
-    for ring in ["outer_ring", "inner_ring"] {
-        show(&[ring], &["tilt", "transverse_inertia", "centre_of_mass"]);
-        show(&[ring, "support"], &["tilt_x", "tilt_y", "coupled"]);
-    }
-    show(&["loads", ALL], &["at"]);
-    show(&["unbalances", ALL], &["axial_position"]);
-    show(&["defects", ALL], &["shape", "walls"]);
-    if let Some(scene) = scene.as_object_mut() {
-        for part in ["moments", "table_forces"] {
-            scene.entry(part).or_insert_with(|| json!({}));
-        }
-    }
-}
-
-/// Stands for all entries of a list or of named parts.
-const ALL: &str = "*";
-
-/// The parts of a document under some keys.
-fn all_of<'v>(document: &'v mut Value, keys: &[&str]) -> Vec<&'v mut Map<String, Value>> {
-    let mut parts = vec![document];
-    for key in keys {
-        parts = parts
-            .into_iter()
-            .flat_map(|part| -> Vec<&mut Value> {
-                match (part, *key) {
-                    (Value::Object(map), ALL) => map.values_mut().collect(),
-                    (Value::Array(items), ALL) => items.iter_mut().collect(),
-                    (Value::Object(map), key) => map.get_mut(key).into_iter().collect(),
-                    _ => Vec::new(),
-                }
-            })
-            .collect();
-    }
-    let maps = parts.into_iter().filter_map(Value::as_object_mut);
-    maps.collect()
 }
 
 /// A path in a document, as a user writes it; empty: the whole document.

@@ -6,6 +6,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::ring::RingName;
+use crate::base::every::every;
 
 /// A named set of signals.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -201,32 +202,32 @@ impl Component {
 
     /// Name as in columns and states, and unit.
     pub fn label(self) -> (&'static str, &'static str) {
-        [
-            ("x", "m"),
-            ("y", "m"),
-            ("z", "m"),
-            ("theta", "rad"),
-            ("vx", "m/s"),
-            ("vy", "m/s"),
-            ("vz", "m/s"),
-            ("omega", "rad/s"),
-            ("ax", "m/s^2"),
-            ("ay", "m/s^2"),
-            ("az", "m/s^2"),
-            ("alpha", "rad/s^2"),
-            ("tilt_x", "rad"),
-            ("tilt_y", "rad"),
-            ("tilt_vx", "rad/s"),
-            ("tilt_vy", "rad/s"),
-            ("tilt_ax", "rad/s^2"),
-            ("tilt_ay", "rad/s^2"),
-            ("turn_x", "rad"),
-            ("turn_y", "rad"),
-            ("omega_x", "rad/s"),
-            ("omega_y", "rad/s"),
-            ("alpha_x", "rad/s^2"),
-            ("alpha_y", "rad/s^2"),
-        ][self as usize]
+        match self {
+            Self::X => ("x", "m"),
+            Self::Y => ("y", "m"),
+            Self::Z => ("z", "m"),
+            Self::Theta => ("theta", "rad"),
+            Self::Vx => ("vx", "m/s"),
+            Self::Vy => ("vy", "m/s"),
+            Self::Vz => ("vz", "m/s"),
+            Self::Omega => ("omega", "rad/s"),
+            Self::Ax => ("ax", "m/s^2"),
+            Self::Ay => ("ay", "m/s^2"),
+            Self::Az => ("az", "m/s^2"),
+            Self::Alpha => ("alpha", "rad/s^2"),
+            Self::TiltX => ("tilt_x", "rad"),
+            Self::TiltY => ("tilt_y", "rad"),
+            Self::TiltVx => ("tilt_vx", "rad/s"),
+            Self::TiltVy => ("tilt_vy", "rad/s"),
+            Self::TiltAx => ("tilt_ax", "rad/s^2"),
+            Self::TiltAy => ("tilt_ay", "rad/s^2"),
+            Self::TurnX => ("turn_x", "rad"),
+            Self::TurnY => ("turn_y", "rad"),
+            Self::OmegaX => ("omega_x", "rad/s"),
+            Self::OmegaY => ("omega_y", "rad/s"),
+            Self::AlphaX => ("alpha_x", "rad/s^2"),
+            Self::AlphaY => ("alpha_y", "rad/s^2"),
+        }
     }
 }
 
@@ -249,13 +250,7 @@ pub enum ContactQuantity {
 
 impl ContactQuantity {
     /// All five.
-    pub const ALL: [Self; 5] = [
-        Self::Load,
-        Self::Angle,
-        Self::ZoneCentre,
-        Self::ZoneWidth,
-        Self::Slip,
-    ];
+    pub const ALL: [Self; 5] = every!(ContactQuantity: Load, Angle, ZoneCentre, ZoneWidth, Slip);
 
     /// Name as in columns, and unit.
     pub fn label(self) -> (&'static str, &'static str) {

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::TimeFunction;
+use super::absent;
 use super::numbers::{BoundedNumber, NumberRange};
 
 /// A ring: its mass and how it is held.
@@ -27,14 +28,14 @@ pub struct Ring {
     pub support: Support,
     /// Nominal tilt (τ_x, τ_y) \[rad\], √(τ_x² + τ_y²) at most 0.5: the right-handed rotation about x and y at which the tilts are held,
     /// or their springs relaxed; absent: 0. It does not apply to a tilt whose motion is given.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "absent::none")]
     pub tilt: Option<[f64; 2]>,
     /// Moment of inertia about an axis across z through the centre of mass \[kg m²\]; absent: that of the hollow cylinder or thin ring
     /// that `inertia` is computed from, as long as `width`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "absent::none")]
     pub transverse_inertia: Option<f64>,
     /// Axial place of the centre of mass in the ring's frame \[m\]; x, y and z of the ring are the displacement of this point. Absent: 0.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "absent::none")]
     pub centre_of_mass: Option<f64>,
 }
 
@@ -88,13 +89,13 @@ pub struct Support {
     #[serde(default)]
     pub theta: Option<Mount>,
     /// Tilt about x; rings only.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "absent::none")]
     pub tilt_x: Option<Mount>,
     /// Tilt about y; rings only.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "absent::none")]
     pub tilt_y: Option<Mount>,
     /// Springs and dampers between all directions, in addition to those above; rings only.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "absent::none")]
     pub coupled: Option<Box<CoupledSupport>>,
 }
 

@@ -1,5 +1,6 @@
 //! Texture: what grinding and honing leave on races and balls.
 
+use super::absent;
 use serde::{Deserialize, Serialize};
 
 /// Many small waves around the races and balls of a row, with random phases and amplitudes that fall with their order n (model
@@ -25,12 +26,12 @@ pub struct Texture {
     pub slope: f64,
     /// Lowest and highest order on races, 2 to 20 000; absent: from 2 to that whose waves are as long as half of a contact's width. On
     /// balls the highest order is that of waves as short on them, if it is lower.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "absent::none")]
     pub orders: Option<[u32; 2]>,
     /// Seed of phases and amplitudes, 0 to 2⁵³ − 1.
     pub seed: u64,
     /// Load of the contact over whose width waves are averaged \[N\]; absent: that of the equilibrium at the start.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "absent::none")]
     pub reference_load: Option<f64>,
 }
 

@@ -1,9 +1,9 @@
 //! Drive, loads and values in time.
 
-use super::check::{entry_name, finite, within};
+use super::check::{entry_name, finite, numbers, within};
 use crate::base::error::{Error, Result};
 use crate::base::quantities;
-use crate::scene::{Drive, Profile, Scene, TableForce, TimeFunction};
+use crate::scene::{Drive, Load, Profile, Scene, TableForce, TimeFunction};
 
 /// What turns the rings.
 pub(super) fn drive(scene: &Scene) -> Result<()> {
@@ -50,8 +50,15 @@ fn ring_speed(path: &str, speed: &TimeFunction) -> Result<()> {
 pub(super) fn loads(scene: &Scene) -> Result<()> {
     for (name, load) in &scene.loads {
         entry_name("loads", name)?;
-        direction(&format!("loads.{name}"), &load.direction)?;
-        time_function(&format!("loads.{name}.force"), &load.force, (1e12, "N"))?;
+        let Load {
+            ring: _,
+            direction: along,
+            force,
+            // `tilt` checks the place.
+            at: _,
+        } = load;
+        direction(&format!("loads.{name}"), along)?;
+        time_function(&format!("loads.{name}.force"), force, (1e12, "N"))?;
     }
     for (name, table) in &scene.table_forces {
         entry_name("table_forces", name)?;
@@ -61,35 +68,37 @@ pub(super) fn loads(scene: &Scene) -> Result<()> {
 }
 
 fn table_force(path: &str, table: &TableForce) -> Result<()> {
-    direction(path, &table.direction)?;
-    for place in &table.places {
+    let TableForce {
+        ring: _,
+        direction: along,
+        places,
+        forces,
+        damping,
+    } = table;
+    direction(path, along)?;
+    for place in places {
         within(&format!("{path}.places"), *place, -1.0..=1.0, "m")?;
     }
-    let rises = table.places.windows(2).all(|pair| pair[0] < pair[1]);
-    if table.places.len() < 2 || !rises {
+    let rises = places.windows(2).all(|pair| pair[0] < pair[1]);
+    if places.len() < 2 || !rises {
         let allowed = "two or more numbers, each above the one before";
         return Err(Error::scene(
             format!("{path}.places"),
-            format!("{:?}", table.places),
+            format!("{places:?}"),
             allowed,
         ));
     }
-    if table.forces.len() != table.places.len() {
+    if forces.len() != places.len() {
         return Err(Error::scene(
             format!("{path}.forces"),
-            format!("{} numbers", table.forces.len()),
-            format!("one for each of the {} places", table.places.len()),
+            format!("{} numbers", forces.len()),
+            format!("one for each of the {} places", places.len()),
         ));
     }
-    for force in &table.forces {
+    for force in forces {
         within(&format!("{path}.forces"), *force, -1e12..=1e12, "N")?;
     }
-    within(
-        &format!("{path}.damping"),
-        table.damping,
-        0.0..=1e12,
-        "N s/m",
-    )
+    within(&format!("{path}.damping"), *damping, 0.0..=1e12, "N s/m")
 }
 
 /// What a load acts along, or a moment about.
@@ -108,18 +117,7 @@ pub(super) fn direction(path: &str, direction: &[f64; 3]) -> Result<()> {
 fn unbalances(scene: &Scene) -> Result<()> {
     for (name, unbalance) in &scene.unbalances {
         entry_name("unbalances", name)?;
-        within(
-            &format!("unbalances.{name}.moment"),
-            unbalance.moment,
-            0.0..=1e6,
-            "kg m",
-        )?;
-        within(
-            &format!("unbalances.{name}.angle"),
-            unbalance.angle,
-            -1e3..=1e3,
-            "rad",
-        )?;
+        numbers(&format!("unbalances.{name}"), unbalance.numbers())?;
     }
     Ok(())
 }

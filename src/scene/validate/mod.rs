@@ -11,9 +11,9 @@ mod race;
 mod texture;
 mod tilt;
 
-use super::{RingName, Row, SCHEMA, Scene};
+use super::{RingName, Row, SCHEMA, Scene, Solver};
 use crate::base::error::{Error, Result};
-use check::{entry_name, positive, within};
+use check::{entry_name, numbers, positive, within};
 
 impl Scene {
     /// Checks every field; [`crate::compile()`] does it for you.
@@ -21,17 +21,39 @@ impl Scene {
     /// # Errors
     /// [`Error::Scene`] with the path, the value and what is allowed, for the first field that is not usable.
     pub fn validate(&self) -> Result<()> {
-        if self.schema != SCHEMA {
-            return Err(Error::scene(
-                "schema",
-                self.schema,
-                format!("must be {SCHEMA}"),
-            ));
+        // Named one by one, so that the compiler asks what is allowed of a new field.
+        let Self {
+            schema,
+            name: _,
+            rows,
+            outer_ring: _,
+            inner_ring: _,
+            materials,
+            contact,
+            friction,
+            lubricant: _,
+            spin: _,
+            cage,
+            drive: _,
+            outer_speed: _,
+            gravity,
+            loads: _,
+            moments: _,
+            unbalances: _,
+            table_forces: _,
+            ring_forces: _,
+            defects,
+            probes,
+            approximations,
+            solver,
+        } = self;
+        if *schema != SCHEMA {
+            return Err(Error::scene("schema", schema, format!("must be {SCHEMA}")));
         }
-        if self.rows.is_empty() || self.rows.len() > 16 {
-            return Err(Error::scene("rows", self.rows.len(), "1 to 16 rows"));
+        if rows.is_empty() || rows.len() > 16 {
+            return Err(Error::scene("rows", rows.len(), "1 to 16 rows"));
         }
-        for (i, row) in self.rows.iter().enumerate() {
+        for (i, row) in rows.iter().enumerate() {
             bearing::row(&format!("rows[{i}]"), row)?;
             race::races(&format!("rows[{i}]"), row, self.contact_of(row))?;
             contact::of_row(&format!("rows[{i}]"), row)?;
@@ -41,41 +63,30 @@ impl Scene {
         bearing::ring(self, RingName::Inner)?;
         tilt::ring(self, RingName::Outer)?;
         tilt::ring(self, RingName::Inner)?;
-        contact::materials(&self.materials)?;
-        contact::contact("contact", &self.contact)?;
-        contact::friction("friction", &self.friction)?;
-        if let Some(cage) = &self.cage {
-            within("cage.stiffness", cage.stiffness, 0.0..=1e15, "N/m")?;
-            within("cage.damping", cage.damping, 0.0..=1e12, "N s/m")?;
-            within("cage.play", cage.play, 0.0..=1.0, "m")?;
+        contact::materials(materials)?;
+        contact::contact("contact", contact)?;
+        contact::friction("friction", friction)?;
+        if let Some(cage) = cage {
+            numbers("cage", cage.numbers())?;
         }
         load::drive(self)?;
         lubricant::lubricants(self)?;
-        for (i, g) in self.gravity.iter().enumerate() {
+        for (i, g) in gravity.iter().enumerate() {
             within(&format!("gravity[{i}]"), *g, -1e6..=1e6, "m/s²")?;
         }
         load::loads(self)?;
         tilt::loads(self)?;
         self.check_tilted()?;
-        for (name, defect) in &self.defects {
+        for (name, defect) in defects {
             entry_name("defects", name)?;
             defect::defect(self, &format!("defects.{name}"), defect)?;
         }
-        for (name, probe) in &self.probes {
+        for (name, probe) in probes {
             entry_name("probes", name)?;
             probe::probe(self, &format!("probes.{name}"), probe)?;
         }
-        self.approximations.validate(self)?;
-        within("solver.rtol", self.solver.rtol, 1e-12..=1e-1, "")?;
-        for (path, step) in [
-            ("solver.first_step", self.solver.first_step),
-            ("solver.max_step", self.solver.max_step),
-        ] {
-            if let Some(step) = step {
-                positive(path, step, "s")?;
-            }
-        }
-        Ok(())
+        approximations.validate(self)?;
+        self::solver(solver)
     }
 
     pub(super) fn row_index(&self, path: &str, row: usize) -> Result<&Row> {
@@ -104,4 +115,25 @@ impl Scene {
             }
         }
     }
+}
+
+fn solver(solver: &Solver) -> Result<()> {
+    let Solver {
+        method: _,
+        rtol,
+        first_step,
+        max_step,
+        frequency_cap: _,
+        reduce: _,
+    } = *solver;
+    within("solver.rtol", rtol, 1e-12..=1e-1, "")?;
+    for (path, step) in [
+        ("solver.first_step", first_step),
+        ("solver.max_step", max_step),
+    ] {
+        if let Some(step) = step {
+            positive(path, step, "s")?;
+        }
+    }
+    Ok(())
 }

@@ -6,7 +6,9 @@ use super::check::{self, entry_name, place, positive, within};
 use super::load::{direction, time_function};
 use crate::base::error::{Error, Result};
 use crate::base::quantities::number;
-use crate::scene::{CoupledSupport, Mount, Profile, RingName, Scene, Support, TimeFunction};
+use crate::scene::{
+    CoupledSupport, Moment, Mount, Profile, RingName, Scene, Support, TimeFunction,
+};
 
 /// The furthest that a ring may tilt \[rad\].
 const FURTHEST: f64 = 0.5;
@@ -92,11 +94,13 @@ fn given(path: &str, support: &Support) -> Result<()> {
 
 /// A coupled support, of a ring whose rotation a speed may prescribe.
 fn support(path: &str, coupled: &CoupledSupport, turned_by: Option<&str>) -> Result<()> {
-    place(&format!("{path}.axial_position"), coupled.axial_position)?;
-    for (field, rows) in [
-        ("stiffness", coupled.stiffness),
-        ("damping", coupled.damping),
-    ] {
+    let CoupledSupport {
+        stiffness,
+        damping,
+        axial_position,
+    } = coupled;
+    place(&format!("{path}.axial_position"), *axial_position)?;
+    for (field, rows) in [("stiffness", stiffness), ("damping", damping)] {
         let path = format!("{path}.{field}");
         for (i, row) in rows.iter().enumerate() {
             for (j, entry) in row.iter().enumerate() {
@@ -129,12 +133,13 @@ fn support(path: &str, coupled: &CoupledSupport, turned_by: Option<&str>) -> Res
 pub(super) fn loads(scene: &Scene) -> Result<()> {
     for (name, moment) in &scene.moments {
         entry_name("moments", name)?;
-        direction(&format!("moments.{name}"), &moment.direction)?;
-        time_function(
-            &format!("moments.{name}.moment"),
-            &moment.moment,
-            (1e12, "N m"),
-        )?;
+        let Moment {
+            ring: _,
+            direction: about,
+            moment,
+        } = moment;
+        direction(&format!("moments.{name}"), about)?;
+        time_function(&format!("moments.{name}.moment"), moment, (1e12, "N m"))?;
     }
     for (name, load) in &scene.loads {
         for (i, at) in load.at.unwrap_or_default().into_iter().enumerate() {
