@@ -7,12 +7,13 @@ or ``{tag: value}`` when it only wraps one value. A field whose name is a Python
 from __future__ import annotations
 
 import dataclasses
+import functools
 import math
 import types
 import typing
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
-from typing import Any, ClassVar, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 import numpy as np
 
@@ -63,6 +64,68 @@ class Variant(Part):
         cls.wraps = wraps
 
 
+class _OfKind(type):
+    """Makes of the fields of a document the kind that they tell."""
+
+    def __call__(cls, **fields: Any) -> Any:
+        if Told not in cls.__bases__:
+            return super().__call__(**fields)
+        kind, own = _told(cls, fields, "")  # type: ignore[arg-type]
+        return kind(**own)
+
+
+if TYPE_CHECKING:
+    _OfKind = type  # type: ignore[misc, assignment]
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Told(Part, metaclass=_OfKind):
+    """Base of a part of several kinds whose fields lie flat in a document: some of the keys tell the kind.
+
+    The part that derives from this names these keys in ``_telling``; the kinds derive from that. What a kind
+    has as a plain attribute of its class is the same for all its documents, which hold it beside the kind's
+    own fields.
+    """
+
+    _telling: ClassVar[tuple[str, ...]]
+
+    @classmethod
+    def _kinds(cls) -> tuple[type[Told], ...]:
+        """Return all kinds of a part."""
+        return tuple(cls.__subclasses__())
+
+
+@functools.cache
+def _constants(kind: type[Told]) -> dict[str, Any]:
+    """Return what is the same in all documents of a kind."""
+    own = {field.name for field in dataclasses.fields(kind)}
+    part: type[Told] = kind.__mro__[1]
+    others = {field.name for of in part._kinds() for field in dataclasses.fields(of)}
+    names = (*kind._telling, *sorted(others - own))
+    return {name: getattr(kind, name) for name in names if hasattr(kind, name)}
+
+
+def _told(
+    part: type[Told], fields: Mapping[str, Any], path: str
+) -> tuple[type[Told], dict[str, Any]]:
+    """Return the kind of a part that a document's fields tell, and those that are the kind's own."""
+    told = {key: fields.get(key) for key in part._telling}
+    same = (kind for kind in part._kinds() if {key: getattr(kind, key) for key in told} == told)
+    kind = next(same, None)
+    if kind is None:
+        (key, value), *_ = [(key, value) for key, value in told.items() if value is not None]
+        known = sorted(
+            {str(word) for of in part._kinds() if (word := getattr(of, key)) is not None}
+        )
+        raise SceneError(_join(path, key), repr(value), f"left out, or {' or '.join(known)}")
+    own = dict(fields)
+    for key, value in _constants(kind).items():
+        if own.pop(key, value) != value:
+            allowed = f"left out, or {value!r}, for a {kind.__name__}"
+            raise SceneError(_join(path, key), repr(fields[key]), allowed)
+    return kind, own
+
+
 def _frozen(value: Any) -> Any:
     if isinstance(value, Mapping):
         return MappingProxyType(dict(value))
@@ -107,7 +170,10 @@ def encode(value: object, path: str) -> Any:
 
 
 def _encode_fields(part: Part, path: str) -> dict[str, Any]:
-    document = {}
+    document: dict[str, Any] = {}
+    if isinstance(part, Told):
+        constants = _constants(type(part)).items()
+        document = {k: v for k, v in constants if k not in part._telling or v is not None}
     for name, key, left_out in _names(type(part)):
         value = getattr(part, name)
         if not (left_out and (value is None or value is False or value == {})):
@@ -158,6 +224,8 @@ def _decode(hint: Any, value: Any, path: str) -> Any:
 
 
 def _decode_part(kind: type[Part], value: Any, path: str) -> Part:
+    if issubclass(kind, Told):
+        kind, value = _told(kind, value, path)
     fields = {_key(field): field.name for field in dataclasses.fields(kind)}
     hints = _hints(kind)
     if issubclass(kind, Variant):

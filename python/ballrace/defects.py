@@ -1,13 +1,14 @@
 """Defects by their usual names: a spall, a dent, a line, a pit, a cap of a ball, with sizes in millimetres.
 
-Each is a :class:`ballrace.scene.Defect`, placed where the contact runs unless ``axial_offset`` says otherwise; put
-them into a scene by name: ``br.bearing("6205", defects={"spall": spall(on="inner_race", width_mm=1.0)})``.
+Each is a :class:`ballrace.scene.Defect`, placed where the contact runs unless ``axial_offset`` says
+otherwise; put them into a scene by name: ``br.bearing("6205", defects={"spall": spall(on="inner_race",
+width_mm=1.0)})``.
 
 >>> import ballrace as br
 >>> spall(on="outer_race", width_mm=1.0).width
 0.001
->>> dent(on="ball", diameter_mm=0.2, ball=3).width.widths[0]
-0.0
+>>> dent(on="ball", diameter_mm=0.2, ball=3).depth
+8e-06
 >>> cap(width_mm=1.0, ball=3).shape
 'cap'
 >>> pit(on="outer_race", diameter_mm=0.178).shape
@@ -17,11 +18,11 @@ them into a scene by name: ``br.bearing("6205", defects={"spall": spall(on="inne
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from ._numbers import positive
 from .errors import SceneError
-from .scene import Defect, Floor, WidthProfile
+from .scene import Cap, Dent, Floor, Patch, Pit, SteepPatch, WidthProfile
 
 if TYPE_CHECKING:
     from .scene import AxialOffset, Surface, Width
@@ -35,7 +36,10 @@ _ROLLED = 0.3
 """Radius of rolled edges [mm]."""
 
 _CHORDS = 16
-"""Pieces that the outline of a dent is drawn with."""
+"""Pieces that the outline of a round patch is drawn with."""
+
+_DEPTH, _RIM = 25.0, 500.0
+"""Diameter of a dent over its depth and over the height of its rim."""
 
 
 def spall(
@@ -50,7 +54,7 @@ def spall(
     axial_offset: AxialOffset = "contact",
     row: int = 0,
     ball: int | None = None,
-) -> Defect:
+) -> Patch | SteepPatch:
     """Return a spall: a rectangle in which the surface is absent.
 
     Parameters
@@ -60,13 +64,14 @@ def spall(
     width_mm, length_mm : float
         Extent along the rolling direction, and across it [mm].
     depth_mm : float, optional
-        Depth of its floor [mm]; by default so deep that no ball meets it. A shallow floor is a bed of ten bumps.
+        Depth of its floor [mm]; by default so deep that no ball meets it. A shallow floor is a bed of ten
+        bumps.
     edge_radius_mm : float, optional
         Radius of its rolled edges, that of the fault circles [mm]; by default 0.3. Left out with steep walls.
     walls : {"rolled", "steep"}
-        Edges that are rolled over, or steep walls, which set the radius and move the fault circles apart so that
-        contacts unload as in boundary-element solutions: see :class:`ballrace.scene.Defect`. Steep walls need a
-        spall at least 1.25 contacts wide.
+        Edges that are rolled over, or steep walls, which set the radius and move the fault circles apart so
+        that contacts unload as in boundary-element solutions: see :class:`ballrace.scene.Defect`. Steep walls
+        need a spall at least 1.25 contacts wide.
     angle : float
         Angular place on the body, counter-clockwise from its own x axis [rad]; by default where a load along -y
         presses on the outer race.
@@ -86,22 +91,15 @@ def spall(
     if depth_mm is not None:
         _positive(depth_mm=depth_mm)
         floor = Floor(depth=1e-3 * depth_mm, elements=10)
-    return Defect(
-        on=on,
-        row=row,
-        ball=_ball(on, ball),
-        angle=angle,
-        axial_offset=axial_offset,
-        length=1e-3 * length_mm,
-        width=1e-3 * width_mm,
-        edge_radius=edge_radius,
-        walls="steep" if walls == "steep" else None,
-        floor=floor,
-    )
+    place = _place(on, row, ball, angle, axial_offset)
+    length, width = 1e-3 * length_mm, 1e-3 * width_mm
+    if edge_radius is None:
+        return SteepPatch(**place, length=length, width=width, floor=floor)
+    return Patch(**place, length=length, width=width, edge_radius=edge_radius, floor=floor)
 
 
-def _edge_radius(walls: str, given: float | None) -> float:
-    """Return the radius of fault circles beside walls [m]; 0 where it follows from them."""
+def _edge_radius(walls: str, given: float | None) -> float | None:
+    """Return the radius of fault circles beside walls [m]; None where it follows from them."""
     if walls not in ("rolled", "steep"):
         raise SceneError("walls", repr(walls), "'rolled' or 'steep'")
     if walls == "steep":
@@ -109,7 +107,7 @@ def _edge_radius(walls: str, given: float | None) -> float:
             raise SceneError(
                 "edge_radius_mm", repr(given), "left out with walls='steep', from which it follows"
             )
-        return 0.0
+        return None
     radius = _ROLLED if given is None else given
     _positive(edge_radius_mm=radius)
     return 1e-3 * radius
@@ -119,21 +117,36 @@ def dent(
     *,
     on: Surface,
     diameter_mm: float,
-    edge_radius_mm: float = 0.3,
+    length_mm: float | None = None,
+    depth_mm: float | None = None,
+    rim_height_mm: float | None = None,
+    edge_radius_mm: float | None = None,
     angle: float = _DOWN,
     axial_offset: AxialOffset = "contact",
     row: int = 0,
     ball: int | None = None,
-) -> Defect:
-    """Return a dent: a round defect with rolled edges, as a hard particle leaves.
+) -> Dent | Patch:
+    """Return a dent with a raised rim, as a hard particle leaves between ball and race.
 
-    For a hole smaller than its contact see :func:`pit`.
+    It is smaller than its contact, like a :func:`pit`: the surfaces bulge into it, and its rim presses them
+    back. One larger than the contact is refused when the scene is used. With ``edge_radius_mm`` it is a round
+    patch instead, in which the surface is absent, for dents wider than their contact.
 
     Parameters
     ----------
     diameter_mm : float
-        Diameter of its outline [mm].
-    on, edge_radius_mm, angle, axial_offset, row, ball
+        Extent along the rolling direction at the level of the surface [mm].
+    length_mm : float, optional
+        Extent across it [mm]; by default the dent is round.
+    depth_mm : float, optional
+        Depth in the middle [mm]; by default a twenty-fifth of the diameter. From some hundredth on, contacts
+        do not meet its floor.
+    rim_height_mm : float, optional
+        Height of the rim's crest [mm], 0 for none; by default a five-hundredth of the diameter, an assumption
+        of what overrolling leaves.
+    edge_radius_mm : float, optional
+        Radius of the rolled edges of a round patch [mm], which has neither rim, depth nor length.
+    on, angle, axial_offset, row, ball
         As for :func:`spall`.
 
     Raises
@@ -141,16 +154,24 @@ def dent(
     SceneError
         A number is not usable.
     """
-    _positive(diameter_mm=diameter_mm, edge_radius_mm=edge_radius_mm)
-    return Defect(
-        on=on,
-        row=row,
-        ball=_ball(on, ball),
-        angle=angle,
-        axial_offset=axial_offset,
-        length=1e-3 * diameter_mm,
-        width=_round(1e-3 * diameter_mm),
-        edge_radius=1e-3 * edge_radius_mm,
+    _positive(diameter_mm=diameter_mm)
+    place = _place(on, row, ball, angle, axial_offset)
+    diameter = 1e-3 * diameter_mm
+    given = {"length_mm": length_mm, "depth_mm": depth_mm, "rim_height_mm": rim_height_mm}
+    if edge_radius_mm is not None:
+        for name, value in given.items():
+            if value is not None:
+                raise SceneError(name, repr(value), "left out beside edge_radius_mm")
+        _positive(edge_radius_mm=edge_radius_mm)
+        edge = 1e-3 * edge_radius_mm
+        return Patch(**place, length=diameter, width=_round(diameter), edge_radius=edge)
+    _positive(**{name: value for name, value in given.items() if value not in (None, 0.0)})
+    return Dent(
+        **place,
+        width=diameter,
+        length=1e-3 * (length_mm or 0.0),
+        depth=diameter / _DEPTH if depth_mm is None else 1e-3 * depth_mm,
+        rim_height=diameter / _RIM if rim_height_mm is None else 1e-3 * rim_height_mm,
     )
 
 
@@ -164,7 +185,7 @@ def line(
     axial_offset: AxialOffset = "contact",
     row: int = 0,
     ball: int | None = None,
-) -> Defect:
+) -> Patch:
     """Return a narrow line with sharp edges across the rolling direction, as an engraver or a wire leaves it.
 
     Parameters
@@ -177,15 +198,12 @@ def line(
     SceneError
         A number is not usable.
     """
-    return spall(
-        on=on,
-        width_mm=width_mm,
-        length_mm=length_mm,
-        edge_radius_mm=edge_radius_mm,
-        angle=angle,
-        axial_offset=axial_offset,
-        row=row,
-        ball=ball,
+    _positive(width_mm=width_mm, length_mm=length_mm, edge_radius_mm=edge_radius_mm)
+    return Patch(
+        **_place(on, row, ball, angle, axial_offset),
+        length=1e-3 * length_mm,
+        width=1e-3 * width_mm,
+        edge_radius=1e-3 * edge_radius_mm,
     )
 
 
@@ -197,7 +215,7 @@ def cap(
     axial_offset: AxialOffset = "contact",
     row: int = 0,
     ball: int = 0,
-) -> Defect:
+) -> Cap:
     """Return a cap of a ball: a circle on its surface, within which the surface is absent, fixed in the ball.
 
     Parameters
@@ -213,13 +231,8 @@ def cap(
         A number is not usable.
     """
     _positive(width_mm=width_mm, edge_radius_mm=edge_radius_mm)
-    return Defect(
-        on="ball",
-        row=row,
-        ball=ball,
-        angle=angle,
-        axial_offset=axial_offset,
-        shape="cap",
+    return Cap(
+        **_place("ball", row, ball, angle, axial_offset),
         width=1e-3 * width_mm,
         edge_radius=1e-3 * edge_radius_mm,
     )
@@ -234,7 +247,7 @@ def pit(
     axial_offset: AxialOffset = "contact",
     row: int = 0,
     ball: int | None = None,
-) -> Defect:
+) -> Pit:
     """Return a pit smaller than its contact, as electric discharge or a seeded fault of a data set.
 
     The surfaces bulge into it, and the contact loses part of its load. It is a hole with sharp edges, so deep
@@ -258,13 +271,8 @@ def pit(
     _positive(diameter_mm=diameter_mm)
     if length_mm is not None:
         _positive(length_mm=length_mm)
-    return Defect(
-        on=on,
-        row=row,
-        ball=_ball(on, ball),
-        angle=angle,
-        axial_offset=axial_offset,
-        shape="pit",
+    return Pit(
+        **_place(on, row, ball, angle, axial_offset),
         length=1e-3 * (length_mm or 0.0),
         width=1e-3 * diameter_mm,
     )
@@ -278,8 +286,12 @@ def _round(diameter: float) -> Width:
     return WidthProfile(positions=positions, widths=(0.0, *widths[1:-1], 0.0))
 
 
-def _ball(on: Surface, ball: int | None) -> int | None:
-    return 0 if on == "ball" and ball is None else ball
+def _place(
+    on: Surface, row: int, ball: int | None, angle: float, axial_offset: AxialOffset
+) -> dict[str, Any]:
+    """Return where a defect lies, of a ball on the first one unless another is given."""
+    ball = 0 if on == "ball" and ball is None else ball
+    return {"on": on, "row": row, "ball": ball, "angle": angle, "axial_offset": axial_offset}
 
 
 def _positive(**sizes: float) -> None:

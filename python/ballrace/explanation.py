@@ -59,10 +59,11 @@ class Explanation(Record):
         (root mean square) [m], length of the ``shortest`` waves, which average out in a contact [m], their
         ``frequency`` [Hz], and the ``largest_step`` that resolves them [s].
     pits : list of dict
-        Pits beneath the most loaded contact that meets them at the healthy bearing's equilibrium: ``name``,
-        ``on``, ``size`` along rolling and across [m], ``load`` and size of the ``contact``, 2b and 2a [N], [m],
-        what is ``lost`` of the load at the pit's middle and one approach [N], the ``depth`` of race worth as much
-        [m], the share X of the contact's elastic energy that is ``released``, and the ``duration`` of a pass [s].
+        Pits and dents beneath the most loaded contact that meets them at the healthy bearing's equilibrium:
+        ``name``, ``shape``, ``on``, ``size`` along rolling and across [m], ``load`` and size of the ``contact``,
+        2b and 2a [N], [m], what is ``lost`` of the load at its middle and one approach, below 0 where a rim adds
+        more [N], the ``depth`` of race worth as much [m], the share X of the contact's elastic energy that is
+        ``released``, and the ``duration`` of a pass [s].
     doubts : list of dict
         Numbers that no bearing is likely to have, and columns that cannot change: ``path``, ``value``, ``usual``.
     defects : list of dict

@@ -5,7 +5,7 @@
 macro_rules! every {
     (@any $value:expr) => { _ };
     ($of:ident: $($variant:ident $(($value:expr))?),+ $(,)?) => {{
-        #[allow(unreachable_patterns)]
+        #[allow(unreachable_patterns, clippy::unnested_or_patterns)]
         const fn _covers(of: $of) {
             match of {
                 $($of::$variant $((every!(@any $value)))?)|+ => {}

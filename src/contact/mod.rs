@@ -14,12 +14,12 @@
 //!
 //! What is public beside the laws is hidden from the documentation: it is for the crate's own tests, and changes without notice.
 //!
-//! `defect` has defects: arcs where a surface is absent, the elements that a slice meets there (section 7), and what
-//! makes their forces conservative.
+//! `damage` has the kinds of damage, one file each, the elements that a slice meets where a surface is absent (section 7), what a
+//! contact loses to holes smaller than it (section 15), and what makes these forces conservative.
 
 mod batch;
 mod closed_form;
-mod defect;
+mod damage;
 mod dual;
 mod frames;
 mod held;
@@ -40,8 +40,8 @@ pub(crate) use batch::{
 };
 pub(crate) use closed_form::{AxiallyFixedBalls, AxiallyFixedRace, InPlane, hertz_stiffness};
 #[doc(hidden)]
-pub use defect::SurfaceDefect;
-pub(crate) use defect::{MOST_PITS, PittedContact, Sight, Toward, pits_at_once};
+pub use damage::SurfaceDefect;
+pub(crate) use damage::{Bed, MOST_AT_ONCE, PittedContact, Sight, Toward, met_at_once};
 #[doc(hidden)]
 pub use frames::Motion;
 pub(crate) use frames::{TiltedRing, attitude_accelerations, attitude_rates, centrifugal};
@@ -123,7 +123,7 @@ pub struct Touch {
     pub friction_power: f64,
     /// Contact point from the ball's centre \[m\].
     pub(crate) arm_ball: V2,
-    /// What rotations of the ball turn it by along its slice: ẑ but at the edges of a cap (see `defect`).
+    /// What rotations of the ball turn it by along its slice: ẑ but at the edges of a cap (see `damage::cap`).
     pub(crate) swing: Vector3<f64>,
     /// Whether damping wanted to pull.
     pub pull: bool,

@@ -7,7 +7,7 @@
 
 use nalgebra::Vector3;
 
-use super::defect::WITH_RING_AXIS;
+use super::damage::WITH_RING_AXIS;
 use super::{Aside, OilTouch, Sink, TiltedRing, Touch, V2, cross};
 
 /// Force on a ball \[N\] and moment about its centre \[N m\], in the frame of its ring.

@@ -1,4 +1,4 @@
-//! What pits take of the most loaded contacts that meet them.
+//! What pits and dents take of the most loaded contacts that meet them.
 
 use std::fmt;
 
@@ -10,12 +10,14 @@ use crate::model::HeaviestContact;
 use crate::scene::{Defect, Scene, Surface};
 use crate::statics::DefectPasses;
 
-/// A pit beneath the most loaded contact that meets it at the static equilibrium of the healthy bearing.
+/// A pit or a dent beneath the most loaded contact that meets it at the static equilibrium of the healthy bearing.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct PitExplanation {
     /// Name of the defect.
     pub name: String,
+    /// `pit` or `dent`.
+    pub shape: &'static str,
     /// Which surface.
     pub on: Surface,
     /// Along rolling and across the race \[m\].
@@ -24,7 +26,7 @@ pub struct PitExplanation {
     pub load: f64,
     /// Its width along rolling and its length across, 2b and 2a of Hertz's ellipse \[m\].
     pub contact: [f64; 2],
-    /// What the pit takes of the load at its middle, at one and the same approach \[N\].
+    /// What it takes of the load at its middle, at one and the same approach \[N\]; below 0 where a rim adds more.
     pub lost: f64,
     /// How much less race would take as much \[m\].
     pub depth: f64,
@@ -37,7 +39,11 @@ pub struct PitExplanation {
 /// Of all pits that a loaded contact meets.
 pub(super) fn of(scene: &Scene) -> Result<Vec<PitExplanation>> {
     let mut explanations = Vec::new();
-    for (name, defect) in scene.defects.iter().filter(|(_, defect)| defect.is_pit()) {
+    for (name, defect) in scene
+        .defects
+        .iter()
+        .filter(|(_, defect)| defect.damage.is_small())
+    {
         if let Some(meeting) = DefectPasses::of(scene, defect)? {
             let heaviest = meeting.heaviest(defect);
             explanations.extend(heaviest.and_then(|contact| beneath(name, defect, &contact)));
@@ -48,11 +54,12 @@ pub(super) fn of(scene: &Scene) -> Result<Vec<PitExplanation>> {
 
 fn beneath(name: &str, defect: &Defect, of: &HeaviestContact) -> Option<PitExplanation> {
     let (load, hertz) = (of.load, &of.model.rows[defect.row].hertz[of.race]);
-    let (lost, released) = of.beneath(defect).takes(hertz, load)?;
+    let (lost, released) = of.loses(defect)?;
     let contact = [hertz.half_width, hertz.half_length].map(|half| 2.0 * half * load.cbrt());
-    let size = [defect.width.largest(), defect.extent()];
+    let size = [defect.damage.width(), defect.damage.extent()];
     Some(PitExplanation {
         name: name.to_owned(),
+        shape: defect.damage.word(),
         on: defect.on,
         size,
         load,
@@ -81,9 +88,10 @@ impl fmt::Display for PitExplanation {
         };
         write!(
             f,
-            "{}: pit on {surface}, {size} mm: under {:.0} N its contact is {width:.2} × {length:.2} mm; takes {:.1} N of it ({:.2} µm of \
+            "{}: {} on {surface}, {size} mm: under {:.0} N its contact is {width:.2} × {length:.2} mm; takes {:.1} N of it ({:.2} µm of \
              race) for {:.2} ms a pass; X {:.2}",
             self.name,
+            self.shape,
             self.load,
             self.lost,
             1e6 * self.depth,

@@ -3,6 +3,7 @@
 use super::{Model, Race, ball_defect, race_defect};
 use crate::base::error::Result;
 use crate::contact::SurfaceDefect;
+use crate::contact::hertz::Hertz;
 use crate::scene::{Defect, Scene, Surface};
 
 /// Loads of contacts by row and race \[N\].
@@ -41,8 +42,26 @@ impl HeaviestContact {
         self.model.rows[row].hertz[self.race].half_width * self.load.cbrt()
     }
 
+    /// Whether a defect that should be smaller than it is too large.
+    pub fn is_outgrown(&self, defect: &Defect) -> bool {
+        let (race, hertz) = self.met(defect.row);
+        self.beneath(defect).outgrows(race, hertz, self.load)
+    }
+
+    /// What a defect that is smaller than it takes of its load \[N\], and which share of its energy it releases.
+    pub fn loses(&self, defect: &Defect) -> Option<(f64, f64)> {
+        let (race, hertz) = self.met(defect.row);
+        self.beneath(defect).takes(race, hertz, self.load)
+    }
+
+    /// The race, outer 0 and inner 1, and Hertz's contact with it.
+    fn met(&self, row: usize) -> (usize, &Hertz) {
+        let race = usize::from(self.race == Race::Inner);
+        (race, &self.model.rows[row].hertz[self.race])
+    }
+
     /// A defect beneath it, compiled.
-    pub fn beneath(&self, defect: &Defect) -> SurfaceDefect {
+    fn beneath(&self, defect: &Defect) -> SurfaceDefect {
         let row = &self.model.rows[defect.row];
         let geometry = &self.model.scene().rows[defect.row];
         if defect.on == Surface::Ball {

@@ -15,8 +15,8 @@ use crate::base::error::{Error, Result};
 use crate::base::quantities::number;
 use crate::contact::hertz::Hertz;
 use crate::contact::{
-    BallSide, Damping, Elastic, Law, MOST_PITS, Pair, Rules, Shape, SurfaceDefect, Torus, Traction,
-    Waves, ZoneSlices, pits_at_once,
+    BallSide, Damping, Elastic, Law, MOST_AT_ONCE, Pair, Rules, Shape, SurfaceDefect, Torus,
+    Traction, Waves, ZoneSlices, met_at_once,
 };
 use crate::scene::{self, Approximations, Defect, Mount, Row, Scene, Surface};
 use crate::simd::InstructionSet;
@@ -107,18 +107,19 @@ pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
 fn check_pits_at_once(model: &Model) -> Result<()> {
     for (i, row) in model.rows.iter().enumerate() {
         let balls = model.balls[row.balls()].iter();
-        let of_a_ball = balls.map(|ball| ball.side.defects.iter().filter(|of| of.is_pit()).count());
+        let of_a_ball =
+            balls.map(|ball| ball.side.defects.iter().filter(|of| of.is_small()).count());
         let of_a_ball = of_a_ball.max().unwrap_or(0);
         for (race, pair) in Race::BOTH.into_iter().zip(&row.pairs) {
-            let count = pits_at_once(&pair.defects) + of_a_ball;
-            if count > MOST_PITS {
+            let count = met_at_once(&pair.defects) + of_a_ball;
+            if count > MOST_AT_ONCE {
                 return Err(Error::scene(
                     "defects",
                     format!(
                         "{count} pits that a contact of row {i} with the {} race may meet at once",
                         race.name()
                     ),
-                    format!("at most {MOST_PITS}, those of the ball included"),
+                    format!("at most {MOST_AT_ONCE}, those of the ball included"),
                 ));
             }
         }

@@ -1,7 +1,7 @@
 //! Defects of a scene as contacts meet them.
 
 use crate::contact::hertz::Hertz;
-use crate::contact::{Pair, PittedContact, SurfaceDefect};
+use crate::contact::{Bed, Pair, PittedContact, SurfaceDefect};
 use crate::scene::{Defect, Row};
 
 /// A defect of a race, compiled.
@@ -11,12 +11,15 @@ pub(crate) fn race_defect(
     (race, hertz): (&Pair, &Hertz),
 ) -> SurfaceDefect {
     let middle = row.axial_position + offset(defect);
-    // Validation keeps the defect's middle inside the groove.
-    let radius = race.radius_at(middle).unwrap_or(race.race.a);
-    if defect.is_pit() {
-        return SurfaceDefect::pit(defect, middle, radius, [PittedContact::of(hertz); 2]);
-    }
-    SurfaceDefect::new(defect, middle, least_radius(race, middle, defect.length))
+    let length = defect.damage.length().unwrap_or(0.0);
+    let bed = Bed {
+        middle,
+        // Validation keeps the defect's middle inside the groove.
+        radius: race.radius_at(middle).unwrap_or(race.race.a),
+        least: least_radius(race, middle, length),
+        contacts: [PittedContact::of(hertz); 2],
+    };
+    SurfaceDefect::within(defect, &bed)
 }
 
 /// The least radius of a race over a length about a place \[m\], to the step of a fine grid: one groove has it at an end or in its middle, a
@@ -30,16 +33,14 @@ fn least_radius(race: &Pair, middle: f64, length: f64) -> f64 {
 
 /// A defect of a ball of this radius, compiled, with its contacts with both races.
 pub(crate) fn ball_defect(defect: &Defect, radius: f64, hertz: &[Hertz; 2]) -> SurfaceDefect {
-    if defect.is_pit() {
-        let contacts = hertz.each_ref().map(PittedContact::of);
-        return SurfaceDefect::pit(defect, offset(defect), radius, contacts);
-    }
-    if defect.is_cap() {
-        return SurfaceDefect::cap(defect, offset(defect), radius);
-    }
-    let reach = offset(defect).abs() + defect.length / 2.0;
-    let slice = (radius * radius - reach * reach).max(0.0).sqrt();
-    SurfaceDefect::new(defect, offset(defect), slice)
+    let reach = offset(defect).abs() + defect.damage.length().unwrap_or(0.0) / 2.0;
+    let bed = Bed {
+        middle: offset(defect),
+        radius,
+        least: (radius * radius - reach * reach).max(0.0).sqrt(),
+        contacts: hertz.each_ref().map(PittedContact::of),
+    };
+    SurfaceDefect::within(defect, &bed)
 }
 
 fn offset(defect: &Defect) -> f64 {

@@ -48,7 +48,8 @@ fn numbers(scene: &Scene) -> usize {
     let moments = scene.moments.values();
     let moments = moments.map(|moment| in_time(&moment.moment));
     let loads = scene.loads.values().map(|load| in_time(&load.force));
-    let defects = scene.defects.values().map(|defect| match &defect.width {
+    let widths = scene.defects.values().map(|of| of.damage.width_along());
+    let defects = widths.map(|width| match width.as_ref() {
         Width::Constant(_) => 1,
         Width::Profile(profile) => profile.positions.len() + profile.widths.len(),
     });

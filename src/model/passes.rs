@@ -29,18 +29,21 @@ pub(crate) fn compile(scene: &Scene, rest: &dyn AtRest) -> Result<Model> {
 
 /// Refuses pits that are too large for the heaviest static contact that meets them; where there is none they are taken as they are.
 fn check_pits(scene: &Scene, rest: &dyn AtRest) -> Result<()> {
-    for (name, defect) in scene.defects.iter().filter(|(_, defect)| defect.is_pit()) {
+    for (name, defect) in scene
+        .defects
+        .iter()
+        .filter(|(_, defect)| defect.damage.is_small())
+    {
         let Some(contact) = rest.heaviest(scene, defect)? else {
             continue;
         };
-        let (load, hertz) = (contact.load, &contact.model.rows[defect.row].hertz);
-        if contact.beneath(defect).outgrows(&hertz[contact.race], load) {
+        if contact.is_outgrown(defect) {
             return Err(Error::scene(
                 format!("defects.{name}.width"),
-                defect.width.largest(),
+                defect.damage.width(),
                 format!(
                     "smaller than its contact, which bears {} N; a larger one is a spall, with an edge radius",
-                    number(load)
+                    number(contact.load)
                 ),
             ));
         }

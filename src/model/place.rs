@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::at_rest::{AtRest, HeaviestContact};
 use crate::base::error::{Error, Result};
 use crate::base::quantities;
-use crate::scene::{AxialOffset, Defect, Row, Scene, Surface, Width};
+use crate::scene::{AxialOffset, Damage, Defect, Row, Scene, Surface};
 
 /// Where the number of a defect's axial place comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -40,7 +40,10 @@ pub(crate) fn place<'s>(
     scene: &'s Scene,
     rest: &dyn AtRest,
 ) -> Result<(Cow<'s, Scene>, BTreeMap<String, Placed>)> {
-    let is_given = |defect: &Defect| defect.axial_offset.number().is_some() && !defect.is_steep();
+    let is_given = |defect: &Defect| {
+        let waits = matches!(defect.damage, Damage::SteepPatch { .. });
+        defect.axial_offset.number().is_some() && !waits
+    };
     let mut from: BTreeMap<String, Placed> = scene
         .defects
         .keys()
@@ -57,10 +60,10 @@ pub(crate) fn place<'s>(
         }
         let heaviest = rest.heaviest(scene, defect)?;
         let row = &scene.rows[defect.row];
-        if defect.is_steep() {
-            let half_width = |of: &HeaviestContact| of.half_width(defect.row);
-            let half_width = heaviest.as_ref().map(half_width);
-            wall(name, defect, row, half_width)?;
+        let half_width = |of: &HeaviestContact| of.half_width(defect.row);
+        let half_width = heaviest.as_ref().map(half_width);
+        if let Some(patch) = between_walls(name, &defect.damage, row, half_width)? {
+            defect.damage = patch;
         }
         if defect.axial_offset == AxialOffset::Contact {
             let (number, placed) = match heaviest {
@@ -79,28 +82,44 @@ fn in_nanometres(number: f64) -> f64 {
     (number * FINEST).round() / FINEST + 0.0
 }
 
-/// Gives a defect between steep walls the fault circles that unload a contact of a half-width \[m\] as solids do (model section 15.5).
-fn wall(name: &str, defect: &mut Defect, row: &Row, half_width: Option<f64>) -> Result<()> {
+/// The patch whose fault circles unload a contact of a half-width \[m\] as solids between steep walls do (model section 15.5); none for a
+/// damage without such walls.
+fn between_walls(
+    name: &str,
+    damage: &Damage,
+    row: &Row,
+    half_width: Option<f64>,
+) -> Result<Option<Damage>> {
+    let Damage::SteepPatch {
+        length,
+        width,
+        floor,
+    } = damage
+    else {
+        return Ok(None);
+    };
     let half = half_width.ok_or_else(|| {
         let allowed = "absent, since no loaded contact meets the defect at equilibrium: give width and edge_radius of its defect \
                        circles";
         Error::scene(format!("defects.{name}.walls"), "steep", allowed)
     })?;
-    let width = defect.width.largest();
-    if width < NARROWEST * half {
+    if *width < NARROWEST * half {
         let allowed = format!(
             "at least {} between steep walls, 1.25 times the width of its contact; a narrower one is a pit",
             quantities::length(NARROWEST * half)
         );
         return Err(Error::scene(
             format!("defects.{name}.width"),
-            quantities::length(width),
+            quantities::length(*width),
             allowed,
         ));
     }
-    defect.width = Width::Constant(in_nanometres(width + half));
-    (defect.edge_radius, defect.walls) = (row.ball_diameter / 4.0, None);
-    Ok(())
+    Ok(Some(Damage::Patch {
+        length: *length,
+        width: in_nanometres(width + half).into(),
+        edge_radius: row.ball_diameter / 4.0,
+        floor: floor.clone(),
+    }))
 }
 
 /// Where a contact would run at the nominal contact angle \[m\]: at ±R sin α₀, on the inner race with its preload.

@@ -124,11 +124,12 @@ impl Model {
             let [outer, inner] = self.rows[row].texture_widths?;
             Some(outer.min(inner) / (4.0 * self.rolling_speed(row)))
         });
-        let pits = self.scene.defects.values().filter(|defect| defect.is_pit());
-        let pits = pits.map(|defect| {
+        let pits = self.scene.defects.values().filter_map(|defect| {
+            // One without a size is healthy.
+            let finest = defect.damage.finest().filter(|of| *of > 0.0)?;
             let [outer, inner] = self.typical_widths(defect.row);
-            let least = outer.min(inner).min(defect.width.largest() / 2.0);
-            least / (4.0 * self.rolling_speed(defect.row))
+            let least = outer.min(inner).min(finest);
+            Some(least / (4.0 * self.rolling_speed(defect.row)))
         });
         textures.chain(pits).fold(f64::INFINITY, f64::min)
     }

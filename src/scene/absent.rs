@@ -12,6 +12,7 @@ thread_local! {
 }
 
 /// Whether an option is left out.
+#[allow(clippy::ref_option)] // as serde asks
 pub(super) fn none<T>(value: &Option<T>) -> bool {
     value.is_none() && !WRITTEN_OUT.get()
 }

@@ -1,50 +1,45 @@
-//! Defects: the race or ball surface is absent over an arc, and fault circles stand at its edges.
+//! Defects: a damage and where it lies.
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use super::absent;
-use super::time::{number_or_map, number_or_word};
+use super::damage::{Damage, DefectDocument};
+use super::document::at_field;
+use super::surface::{AxialOffset, Surface};
+use super::width::Width;
 
 /// A defect of one body (model section 7). It turns with its body.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Defect {
     /// Which surface.
     pub on: Surface,
     /// Row, from 0.
-    #[serde(default)]
     pub row: usize,
     /// Ball of the row, from 0; needed for a ball defect, absent otherwise.
-    #[serde(default)]
     pub ball: Option<usize>,
     /// Angular place φ_f on the body, counter-clockwise from its own x axis \[rad\].
     pub angle: f64,
     /// Axial place of the middle \[m\], from the row's plane (races) or the ball's centre; by default where contacts run.
-    #[serde(default)]
     pub axial_offset: AxialOffset,
-    /// Outline; absent: a patch of `length` and `width`.
-    #[serde(default, skip_serializing_if = "absent::none")]
-    pub shape: Option<DefectShape>,
-    /// Axial length L_f \[m\]; 0 or absent for a cap, which is as long as it is wide, and for a round pit.
-    #[serde(default)]
-    pub length: f64,
-    /// Width w, arc length along the surface \[m\]; a number or a profile along z.
-    pub width: Width,
-    /// Radius R_f of the fault circles at the edges \[m\]; absent for a pit, which has none, and with `walls`, which set it.
-    #[serde(default)]
-    pub edge_radius: f64,
-    /// Walls from which distance and radius of the fault circles follow; absent: `width` and `edge_radius` are those given.
-    #[serde(default, skip_serializing_if = "absent::none")]
-    pub walls: Option<Walls>,
-    /// Recessed circles between the edges; absent: no floor.
-    #[serde(default)]
-    pub floor: Option<Floor>,
+    /// What lies there. A document has its fields beside those of the place.
+    pub damage: Damage,
 }
 
 impl Defect {
-    /// A defect of row 0 where contacts run, without floor: its surface, angle \[rad\], axial length \[m\], width \[m\] and
-    /// edge radius \[m\].
+    /// A damage of row 0 where contacts run, of a ball on ball 0: its surface and angle \[rad\].
+    pub fn of(damage: Damage, on: Surface, angle: f64) -> Self {
+        Self {
+            on,
+            row: 0,
+            ball: (on == Surface::Ball).then_some(0),
+            angle,
+            axial_offset: AxialOffset::Contact,
+            damage,
+        }
+    }
+
+    /// A patch of row 0 where contacts run, without floor: its surface, angle \[rad\], axial length \[m\], width \[m\] and
+    /// edge radius \[m\]. One of a ball needs [`Self::on_ball`].
     ///
     /// ```
     /// use ballrace::scene::{Defect, Surface};
@@ -59,18 +54,15 @@ impl Defect {
         width: impl Into<Width>,
         edge_radius: f64,
     ) -> Self {
-        Self {
-            on,
-            row: 0,
-            ball: None,
-            angle,
-            axial_offset: AxialOffset::Contact,
-            shape: None,
+        let damage = Damage::Patch {
             length,
             width: width.into(),
             edge_radius,
-            walls: None,
             floor: None,
+        };
+        Self {
+            ball: None,
+            ..Self::of(damage, on, angle)
         }
     }
 
@@ -79,28 +71,51 @@ impl Defect {
     /// ```
     /// use ballrace::scene::Defect;
     /// let cap = Defect::cap(0.0, 1e-3, 0.3e-3).on_ball(4).at_offset(2e-3);
-    /// assert_eq!((cap.ball, cap.length), (Some(4), 0.0));
+    /// assert_eq!((cap.ball, cap.damage.width()), (Some(4), 1e-3));
     /// ```
     pub fn cap(angle: f64, width: f64, edge_radius: f64) -> Self {
+        let damage = Damage::Cap {
+            width,
+            edge_radius,
+            floor: None,
+        };
+        Self::of(damage, Surface::Ball, angle)
+    }
+
+    /// A round pit of row 0 where contacts run: its surface, angle \[rad\] and diameter \[m\]. One of a ball needs [`Self::on_ball`].
+    ///
+    /// ```
+    /// use ballrace::scene::{Damage, Defect, Surface};
+    /// let pit = Defect::pit(Surface::OuterRace, -1.57, 0.178e-3);
+    /// assert_eq!(pit.damage, Damage::Pit { width: 0.178e-3, length: None });
+    /// ```
+    pub fn pit(on: Surface, angle: f64, diameter: f64) -> Self {
+        let damage = Damage::Pit {
+            width: diameter,
+            length: None,
+        };
         Self {
-            ball: Some(0),
-            shape: Some(DefectShape::Cap),
-            ..Self::new(Surface::Ball, angle, 0.0, width, edge_radius)
+            ball: None,
+            ..Self::of(damage, on, angle)
         }
     }
 
-    /// A round pit of row 0 where contacts run: its surface, angle \[rad\] and diameter \[m\].
+    /// A round dent of row 0 where contacts run: its surface, angle \[rad\], diameter \[m\], depth \[m\] and height of its rim \[m\].
+    /// One of a ball is on ball 0.
     ///
     /// ```
     /// use ballrace::scene::{Defect, Surface};
-    /// let pit = Defect::pit(Surface::OuterRace, -1.57, 0.178e-3);
-    /// assert_eq!((pit.length, pit.edge_radius), (0.0, 0.0));
+    /// let dent = Defect::dent(Surface::InnerRace, 0.0, 0.2e-3, 8e-6, 0.3e-6);
+    /// assert_eq!((dent.ball, dent.damage.width()), (None, 0.2e-3));
     /// ```
-    pub fn pit(on: Surface, angle: f64, diameter: f64) -> Self {
-        Self {
-            shape: Some(DefectShape::Pit),
-            ..Self::new(on, angle, 0.0, diameter, 0.0)
-        }
+    pub fn dent(on: Surface, angle: f64, diameter: f64, depth: f64, rim_height: f64) -> Self {
+        let damage = Damage::Dent {
+            width: diameter,
+            length: None,
+            depth,
+            rim_height,
+        };
+        Self::of(damage, on, angle)
     }
 
     /// The same in another row.
@@ -115,30 +130,6 @@ impl Defect {
         Self {
             ball: Some(ball),
             ..self
-        }
-    }
-
-    /// Whether it is a cap of a ball.
-    pub(crate) fn is_cap(&self) -> bool {
-        self.shape == Some(DefectShape::Cap)
-    }
-
-    /// Whether its walls are steep.
-    pub(crate) fn is_steep(&self) -> bool {
-        self.walls == Some(Walls::Steep)
-    }
-
-    /// Whether it is a pit.
-    pub(crate) fn is_pit(&self) -> bool {
-        self.shape == Some(DefectShape::Pit)
-    }
-
-    /// How far it reaches along the axis \[m\]; of a cap its width, which is a little more.
-    pub(crate) fn extent(&self) -> f64 {
-        if self.is_cap() || self.is_pit() && self.length == 0.0 {
-            self.width.largest()
-        } else {
-            self.length
         }
     }
 
@@ -158,215 +149,24 @@ impl Defect {
     }
 }
 
-/// The surface that carries a defect.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-#[non_exhaustive]
-pub enum Surface {
-    /// Outer race.
-    OuterRace,
-    /// Inner race.
-    InnerRace,
-    /// A ball.
-    Ball,
-}
-
-/// Outline of a defect that is not a patch of its length and width.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-#[non_exhaustive]
-pub enum DefectShape {
-    /// A circle on a ball's surface, `width` wide along the surface in every direction, less than the ball's radius. The direction from
-    /// the ball's centre to its middle is fixed in the ball: at `angle` about z, with `axial_offset` the axial place of the middle.
-    Cap,
-    /// A hole smaller than its contact, into which the surfaces bulge so that the contact loses part of its load: an ellipse of `width`
-    /// along rolling and `length` across, round without a length, so deep that nothing meets its floor, with sharp edges.
-    Pit,
-}
-
-/// Walls of a patch.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-#[non_exhaustive]
-pub enum Walls {
-    /// Steep ones. A contact carries load until half of it is over the wall. Fault circles with a radius of a quarter of the ball's
-    /// diameter, further apart than `width` by the half-width of the most loaded contact that meets the defect at the equilibrium,
-    /// unload contacts as boundary-element solutions do. A defect narrower than 1.25 contacts is refused. A run records both numbers.
-    Steep,
-}
-
-/// Axial place of a defect's middle: a number, or `"contact"`.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[non_exhaustive]
-pub enum AxialOffset {
-    /// From the row's plane (races) or the ball's centre \[m\].
-    At(f64),
-    /// Where the most loaded of the contacts runs that meet the defect over a turn of the balls, at the static equilibrium of the
-    /// healthy bearing under the largest value of every load: on the outer race that of a ball at the defect's own angle, on a
-    /// ball that with the race that loads it more. Without equilibrium or load it is the place of the nominal contact
-    /// angle. A run records the number, rounded to nanometres.
-    #[default]
-    Contact,
-}
-
-impl From<f64> for AxialOffset {
-    fn from(value: f64) -> Self {
-        Self::At(value)
-    }
-}
-
-impl AxialOffset {
-    /// The number \[m\], if it is one.
-    pub fn number(self) -> Option<f64> {
-        match self {
-            Self::At(value) => Some(value),
-            Self::Contact => None,
-        }
-    }
-}
-
-/// The word that a document has in place of a number.
-const CONTACT: &str = "contact";
-
-/// Fault circles of the edge radius, evenly spaced between the edges, their crests at a depth. Their
-/// forces are a bare sum: a bed of bumps rather than a smooth floor.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-#[non_exhaustive]
-pub struct Floor {
-    /// Depth of the crests below the surface \[m\].
-    pub depth: f64,
-    /// Number of circles, 1 to 1000.
-    pub elements: usize,
-}
-
-impl Floor {
-    /// Depth of the crests \[m\] and number of circles.
-    pub fn new(depth: f64, elements: usize) -> Self {
-        Self { depth, elements }
-    }
-}
-
-/// Width of a defect along its length.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub enum Width {
-    /// The same over the whole length \[m\].
-    Constant(f64),
-    /// Linear between points.
-    Profile(WidthProfile),
-}
-
-/// Width given at axial places, linear between them, constant beyond.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-#[non_exhaustive]
-pub struct WidthProfile {
-    /// Axial places from the defect's middle, increasing \[m\].
-    pub positions: Vec<f64>,
-    /// Widths \[m\].
-    pub widths: Vec<f64>,
-}
-
-impl WidthProfile {
-    /// Widths \[m\] at axial places from the defect's middle \[m\].
-    pub fn new(positions: Vec<f64>, widths: Vec<f64>) -> Self {
-        Self { positions, widths }
-    }
-}
-
-impl From<WidthProfile> for Width {
-    fn from(profile: WidthProfile) -> Self {
-        Self::Profile(profile)
-    }
-}
-
-impl From<f64> for Width {
-    fn from(value: f64) -> Self {
-        Self::Constant(value)
-    }
-}
-
-impl Width {
-    /// Width \[m\] and its slope along z at an axial place from the defect's middle \[m\]; NaN where a profile lacks widths, which
-    /// [`crate::Scene::validate`] refuses.
-    ///
-    /// ```
-    /// use ballrace::scene::{Width, WidthProfile};
-    /// let w = Width::from(WidthProfile::new(vec![-1e-3, 1e-3], vec![0.0, 2e-3]));
-    /// assert_eq!(w.at(0.0), (1e-3, 1.0));
-    /// assert_eq!(w.at(5e-3), (2e-3, 0.0));
-    /// ```
-    pub fn at(&self, z: f64) -> (f64, f64) {
-        match self {
-            Self::Constant(width) => (*width, 0.0),
-            Self::Profile(WidthProfile { positions, widths }) => {
-                let width = |i: usize| widths.get(i).copied().unwrap_or(f64::NAN);
-                let after = positions.partition_point(|&x| x <= z);
-                if after == 0 {
-                    (width(0), 0.0)
-                } else if after == positions.len() {
-                    (width(after - 1), 0.0)
-                } else {
-                    let slope = (width(after) - width(after - 1))
-                        / (positions[after] - positions[after - 1]);
-                    (width(after - 1) + slope * (z - positions[after - 1]), slope)
-                }
-            }
-        }
-    }
-
-    /// The same in a mirror, z → −z.
-    pub(crate) fn reversed(&self) -> Self {
-        match self {
-            Self::Constant(width) => Self::Constant(*width),
-            Self::Profile(WidthProfile { positions, widths }) => Self::Profile(WidthProfile {
-                positions: positions.iter().rev().map(|z| -z).collect(),
-                widths: widths.iter().rev().copied().collect(),
-            }),
-        }
-    }
-
-    /// The largest width \[m\].
-    pub fn largest(&self) -> f64 {
-        match self {
-            Self::Constant(width) => *width,
-            Self::Profile(profile) => profile.widths.iter().copied().fold(0.0, f64::max),
-        }
-    }
-}
-
-impl Serialize for Width {
+impl Serialize for Defect {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self {
-            Self::Constant(width) => serializer.serialize_f64(*width),
-            Self::Profile(profile) => profile.serialize(serializer),
-        }
+        let place = (self.on, self.row, self.ball, self.angle, self.axial_offset);
+        DefectDocument::new(place, &self.damage).serialize(serializer)
     }
 }
 
-impl<'de> Deserialize<'de> for Width {
+impl<'de> Deserialize<'de> for Defect {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        number_or_map(
-            deserializer,
-            "a number, or { positions = [ … ], widths = [ … ] }",
-            Self::Constant,
-            Self::Profile,
-        )
-    }
-}
-
-impl Serialize for AxialOffset {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self {
-            Self::At(value) => serializer.serialize_f64(*value),
-            Self::Contact => serializer.serialize_str(CONTACT),
-        }
-    }
-}
-
-impl<'de> Deserialize<'de> for AxialOffset {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        number_or_word(deserializer, CONTACT, Self::At, Self::Contact)
+        let document = DefectDocument::deserialize(deserializer)?;
+        let misfit = |(field, allowed): (_, &str)| at_field(field, allowed);
+        Ok(Self {
+            damage: document.damage().map_err(misfit)?,
+            on: document.on,
+            row: document.row,
+            ball: document.ball,
+            angle: document.angle,
+            axial_offset: document.axial_offset,
+        })
     }
 }

@@ -21,7 +21,8 @@ use crate::base::error::{Error, Result};
 
 /// Reads a document, or a part of one; its messages say where.
 pub(crate) fn interpret<T: DeserializeOwned>(document: &Value, part: &str) -> Result<T> {
-    T::deserialize(Reader(document)).map_err(|misread| {
+    T::deserialize(Reader(document)).map_err(|mut misread| {
+        misread.enter_field();
         let segments = || misread.place.iter().rev();
         let value = path::at(document, segments()).map_or_else(|| "absent".to_owned(), path::short);
         let place = match (part, path::place(segments())) {
@@ -33,6 +34,14 @@ pub(crate) fn interpret<T: DeserializeOwned>(document: &Value, part: &str) -> Re
     })
 }
 
+/// The message of a value that does not fit what other fields of its table say: [`interpret`] reports it at its field.
+pub(super) fn at_field<E: serde::de::Error>(field: &str, allowed: &str) -> E {
+    E::custom(format!("{MISFIT}{field}`, expected {allowed}"))
+}
+
+/// What such a message begins with.
+const MISFIT: &str = "misfit of field `";
+
 /// What is wrong, as serde words it, and its place, the innermost segment first.
 #[derive(Debug)]
 struct Misread {
@@ -41,6 +50,14 @@ struct Misread {
 }
 
 impl Misread {
+    /// Puts a misfit at its field.
+    fn enter_field(&mut self) {
+        let misfit = self.message.strip_prefix(MISFIT);
+        if let Some((field, _)) = misfit.and_then(|of| of.split_once('`')) {
+            self.place.insert(0, Segment::Field(field.to_owned()));
+        }
+    }
+
     fn within(mut self, step: Segment) -> Self {
         self.place.push(step);
         self

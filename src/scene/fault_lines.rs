@@ -47,7 +47,7 @@ impl Scene {
     /// turns.
     pub(crate) fn highest_fault_line(&self, duration: f64) -> Option<(&str, f64)> {
         let shaft = self.highest_speed(duration) / TAU;
-        let defects = self.defects.iter().filter(|(_, d)| d.width.largest() > 0.0);
+        let defects = self.defects.iter().filter(|(_, d)| d.damage.width() > 0.0);
         let lines = defects.map(|(name, defect)| {
             let [_, bpfo, bpfi, bsf] = self.rows[defect.row].orders();
             let order = match defect.on {

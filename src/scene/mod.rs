@@ -18,6 +18,7 @@ mod antiderivative;
 mod approximations;
 mod bearing;
 mod contact;
+mod damage;
 mod defaults;
 mod defect;
 mod document;
@@ -38,12 +39,14 @@ mod ring;
 mod ring_force;
 mod solver;
 mod spin;
+mod surface;
 mod table_force;
 mod texture;
 mod tilt;
 mod time;
 mod turning;
 mod validate;
+mod width;
 
 use std::collections::BTreeMap;
 
@@ -56,7 +59,8 @@ pub(crate) use antiderivative::Antiderivative;
 pub use approximations::Approximations;
 pub use bearing::{GothicArch, RaceProfile, Row, Waviness};
 pub use contact::{Cage, Contact, Friction, NormalLaw, Slices};
-pub use defect::{AxialOffset, Defect, DefectShape, Floor, Surface, Walls, Width, WidthProfile};
+pub use damage::{Damage, RIM};
+pub use defect::Defect;
 pub(crate) use document::interpret;
 pub(crate) use doubt::FilmJudged;
 pub use doubt::{Doubt, STATIC_PRESSURE};
@@ -73,9 +77,11 @@ pub use ring_force::{RingForce, RingForces, RingMotion};
 pub use serde_json::Value;
 pub use solver::{Method, Solver};
 pub use spin::Spin;
+pub use surface::{AxialOffset, Surface};
 pub use table_force::TableForce;
 pub use texture::Texture;
 pub use time::{Profile, TimeFunction};
+pub use width::{Floor, Width, WidthProfile};
 
 /// Version of the document this crate reads.
 pub const SCHEMA: u32 = 1;

@@ -43,7 +43,8 @@ pub(super) fn set(document: &mut Value, path: &str, value: Value) -> Result<()> 
                 if !map.contains_key(key) {
                     let known: Vec<&str> = map.keys().map(String::as_str).collect();
                     let new = a_new_one(path, key).unwrap_or_default();
-                    let allowed = expected::no_such_field(key, &known) + &new;
+                    let renamed = renamed(path).unwrap_or_default();
+                    let allowed = expected::no_such_field(key, &known) + renamed + &new;
                     return Err(Error::scene(path, key, allowed));
                 }
                 &mut map[key]
@@ -141,6 +142,12 @@ fn steps(path: &str) -> Result<Vec<Step<'_>>> {
     Ok(steps)
 }
 
+/// What has become of a name that versions up to 0.3 gave.
+fn renamed(path: &str) -> Option<&'static str> {
+    path.starts_with("defects.defect.")
+        .then_some("; a defect given alone is named by its shape, such as defects.spall")
+}
+
 /// How to add an entry, where a path names only a field of one that is not there.
 fn a_new_one(path: &str, key: &str) -> Option<String> {
     let (part, rest) = path.split_once('.')?;
@@ -153,7 +160,7 @@ fn a_new_one(path: &str, key: &str) -> Option<String> {
 mod tests {
     use crate::Scene;
     use crate::base::error::Error;
-    use crate::scene::{Defect, DefectShape, Surface, Walls, presets};
+    use crate::scene::{Damage, Defect, Surface, presets};
 
     /// Path and value that a document is refused by.
     fn refused(toml: &str) -> (String, String) {
@@ -185,13 +192,22 @@ mod tests {
         let defect = Defect::new(Surface::OuterRace, -1.57, 1e-3, 2e-3, 0.0);
         scene.defects.insert("spall".to_owned(), defect.clone());
         let walled = scene.with(&[("defects.spall.walls", "steep".into())]);
-        assert_eq!(walled.unwrap().defects["spall"].walls, Some(Walls::Steep));
+        let steep = Damage::SteepPatch {
+            length: 1e-3,
+            width: 2e-3,
+            floor: None,
+        };
+        assert_eq!(walled.unwrap().defects["spall"].damage, steep);
         let round = [
             ("defects.spall.shape", "pit".into()),
             ("defects.spall.length", 0.0.into()),
         ];
         let pitted = scene.with(&round).unwrap();
-        assert_eq!(pitted.defects["spall"].shape, Some(DefectShape::Pit));
+        let pit = Damage::Pit {
+            width: 2e-3,
+            length: None,
+        };
+        assert_eq!(pitted.defects["spall"].damage, pit);
     }
 
     #[test]

@@ -79,8 +79,8 @@ impl Touched {
     /// Of a defect that is narrower than the contacts that meet it and is not a pit (model section 15.4).
     pub(crate) fn doubt(&self, scene: &Scene) -> Option<Doubt> {
         let defect = &scene.defects[&self.name];
-        let (width, contact) = (defect.width.largest(), self.contact_width?);
-        let is_narrow = defect.shape.is_none() && width < NARROWEST * contact;
+        let (width, contact) = (defect.damage.width(), self.contact_width?);
+        let is_narrow = defect.damage.is_patch() && width < NARROWEST * contact;
         is_narrow.then(|| Doubt::narrow_defect(&self.name, width, contact))
     }
 
@@ -92,7 +92,7 @@ impl Touched {
 
 /// Whether a defect has any width; one without is healthy, and is not reported.
 pub(crate) fn is_there(defect: &Defect) -> bool {
-    defect.width.largest() > 0.0
+    defect.damage.width() > 0.0
 }
 
 /// Width of a defect over that of its contact from which fault circles unload it as a solver by boundary elements does; below, by a slot
@@ -315,7 +315,7 @@ impl Watched {
         };
         let (shape, origin) = compiled(model, defect);
         let diameter = model.scene().rows[defect.row].ball_diameter;
-        let slices = slices(defect.extent(), diameter);
+        let slices = slices(defect.damage.extent(), diameter);
         let pairs = pairs.entry((defect.row, slices)).or_insert_with(|| {
             Arc::new(row.pairs.each_ref().map(|pair| {
                 let mut finer = pair.clone();

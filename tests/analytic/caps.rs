@@ -3,7 +3,7 @@
 use ballrace::dynamics::rhs;
 use ballrace::inspect;
 use ballrace::scene::{
-    Defect, Drive, Friction, Mount, NormalLaw, Row, Scene, Slices, Support, Surface,
+    Damage, Defect, Drive, Friction, Mount, NormalLaw, Row, Scene, Slices, Support, Surface,
 };
 use ballrace::{Model, Race, Start, compile, explain, start};
 
@@ -44,8 +44,11 @@ fn with_cap(scene: Scene, race: Race) -> Scene {
 
 /// The same with a pit in its contact.
 fn with_pit(scene: Scene, race: Race) -> Scene {
-    let mut pit = Defect::pit(Surface::Ball, 0.01, 0.3e-3).on_ball(0);
-    pit.length = 0.5e-3;
+    let damage = Damage::Pit {
+        width: 0.3e-3,
+        length: Some(0.5e-3),
+    };
+    let pit = Defect::of(damage, Surface::Ball, 0.01);
     with_round(scene, race, pit.at_offset(0.1e-3))
 }
 

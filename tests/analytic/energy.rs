@@ -12,7 +12,7 @@ use ballrace::scene::{
     Surface, Texture, Unbalance, Waviness, Width, WidthProfile, presets,
 };
 use ballrace::{Error, Run, Signals, Start, equilibrium, start};
-use common::{effects, oiled, run, short, through_points};
+use common::{effects, oiled, patch, run, short, through_points};
 
 pub(crate) const LAWS: [NormalLaw; 2] = [
     NormalLaw::Hertz,
@@ -97,6 +97,13 @@ pub(crate) fn with_pit(law: &NormalLaw, on: Surface) -> Scene {
     })
 }
 
+/// A dent with a rim in the place of the pit.
+pub(crate) fn with_dent(law: &NormalLaw, on: Surface) -> Scene {
+    with_defect(law, on, |defect| {
+        *defect = Defect::dent(on, defect.angle, 0.2e-3, 8e-6, 0.4e-6);
+    })
+}
+
 fn wave(order: u32) -> Vec<Waviness> {
     vec![Waviness::new(order, 2e-6, 0.4)]
 }
@@ -138,14 +145,14 @@ fn scenes(law: &NormalLaw) -> Vec<(&'static str, Scene)> {
         (
             "floor",
             with_defect(law, Surface::OuterRace, |d| {
-                d.width = 1e-3.into();
-                d.floor = Some(Floor::new(8e-6, 3));
+                let (_, width, floor) = patch(d);
+                (*width, *floor) = (1e-3.into(), Some(Floor::new(8e-6, 3)));
             }),
         ),
         (
             "width that varies",
             with_defect(law, Surface::OuterRace, |d| {
-                d.width = Width::Profile(WidthProfile::new(
+                *patch(d).1 = Width::Profile(WidthProfile::new(
                     vec![-0.3e-3, 0.3e-3],
                     vec![0.4e-3, 0.7e-3],
                 ));
@@ -154,6 +161,9 @@ fn scenes(law: &NormalLaw) -> Vec<(&'static str, Scene)> {
         ("pit outside", with_pit(law, Surface::OuterRace)),
         ("pit inside", with_pit(law, Surface::InnerRace)),
         ("pit of a ball", with_pit(law, Surface::Ball)),
+        ("dent outside", with_dent(law, Surface::OuterRace)),
+        ("dent inside", with_dent(law, Surface::InnerRace)),
+        ("dent of a ball", with_dent(law, Surface::Ball)),
         (
             "pit on texture",
             textured(with_pit(law, Surface::OuterRace)),
@@ -195,7 +205,7 @@ fn four_points(law: &NormalLaw) -> Scene {
     let row = &mut scene.rows[0];
     (row.outer_arch, row.inner_arch) = (Some(arch.clone()), Some(arch));
     let mut spall = defect(&scene, Surface::OuterRace);
-    spall.length = 2e-3;
+    *patch(&mut spall).0 = 2e-3;
     scene.defects.insert("spall".to_owned(), spall);
     scene
 }

@@ -7,6 +7,7 @@ mod balance;
 mod caps;
 mod coefficients;
 mod contact;
+mod dents;
 mod energy;
 mod equilibrium;
 mod fitted;

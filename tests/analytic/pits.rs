@@ -232,7 +232,12 @@ fn a_light_bearing_runs_over_pits() {
         let mut scene = turned_by(on, 0.0);
         scene.loads.get_mut("radial").unwrap().force = 12.0.into();
         scene.loads.get_mut("axial").unwrap().force = 5.0.into();
-        scene.defects.get_mut("pit").unwrap().width = 0.15e-3.into();
+        scene
+            .defects
+            .get_mut("pit")
+            .unwrap()
+            .damage
+            .set_width(0.15e-3);
         let out = run(&scene, &short(3e-3));
         let mut exact = short(3e-3);
         exact.rtol = Some(1e-8);
@@ -258,7 +263,8 @@ fn steps_see_a_pit_at_speed() {
         let ahead = 0.12 * (rpm / 3000.0) * 0.4;
         scene.rows[0].start_angle = -FRAC_PI_2 - ahead;
         let defect = scene.defects.get_mut("pit").unwrap();
-        (defect.angle, defect.width) = (-FRAC_PI_2, width.into());
+        defect.angle = -FRAC_PI_2;
+        defect.damage.set_width(width);
         let record = |scene: &Scene, rtol: Option<f64>| {
             let mut asked = short(1e-3);
             asked.rtol = rtol;

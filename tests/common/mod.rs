@@ -6,7 +6,8 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use ballrace::scene::{
-    Friction, Lubricant, Mount, Probe, RaceProfile, Row, Scene, Support, presets,
+    Damage, Defect, Floor, Friction, Lubricant, Mount, Probe, RaceProfile, Row, Scene, Support,
+    Width, presets,
 };
 use ballrace::{Bandwidth, Race, Run, Signals, simulate};
 
@@ -196,4 +197,17 @@ pub fn effects(of: &mut Lubricant, effect: &str) {
 pub fn orbit(y: &[f64], body: usize) -> f64 {
     let (q, v) = (4 * body, y.len() / 2 + 4 * body);
     (y[q] * y[v + 1] - y[q + 1] * y[v]) / y[q].hypot(y[q + 1]).powi(2)
+}
+
+/// Length, width and floor of a defect that is a patch.
+pub fn patch(defect: &mut Defect) -> (&mut f64, &mut Width, &mut Option<Floor>) {
+    match &mut defect.damage {
+        Damage::Patch {
+            length,
+            width,
+            floor,
+            ..
+        } => (length, width, floor),
+        other => panic!("{other:?}"),
+    }
 }

@@ -11,8 +11,8 @@ use ballrace::dynamics::contributions;
 use ballrace::dynamics::rhs;
 use ballrace::inspect;
 use ballrace::scene::{
-    Defect, Friction, GothicArch, Lubricant, Mount, NormalLaw, Scene, Slices, Surface, Texture,
-    Waviness, presets,
+    Damage, Defect, Friction, GothicArch, Lubricant, Mount, NormalLaw, Scene, Slices, Surface,
+    Texture, Waviness, presets,
 };
 use ballrace::{Model, Race, Start, start};
 use common::{Noise, effects, oiled, through_points};
@@ -42,7 +42,7 @@ fn difference_tilted(scene: &Scene, instructions: InstructionSet) -> f64 {
     // What turns round defects of balls across a tilted axis is not among the forces by origin.
     scene
         .defects
-        .retain(|_, defect| defect.shape.is_none() || defect.ball.is_none());
+        .retain(|_, defect| matches!(defect.damage, Damage::Patch { .. }) || defect.ball.is_none());
     let tilted = compile(&scene).unwrap().with_instructions(instructions);
     let (places, speeds) = calm.split_at(calm.len() / 2);
     difference_around(&tilted, &[places, &[0.0; 4], speeds, &[0.0; 4]].concat())
@@ -156,7 +156,9 @@ fn scenes() -> Vec<(String, Scene)> {
         pit.ball = ball;
         pitted.defects.insert(name.to_owned(), pit);
     }
-    pitted.defects.retain(|_, defect| defect.shape.is_some());
+    pitted
+        .defects
+        .retain(|_, defect| !matches!(defect.damage, Damage::Patch { .. }));
     add("pits everywhere", pitted.clone());
     pitted.contact.law = NormalLaw::Hertz;
     add("pits everywhere, Hertz", pitted);

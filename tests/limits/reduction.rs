@@ -14,7 +14,7 @@ use ballrace::scene::{
     Waviness, Width, WidthProfile, presets,
 };
 use ballrace::{Bandwidth, Model, Race, Reduction, Run, Start, simulate, start};
-use common::{Noise, effects, oiled};
+use common::{Noise, effects, oiled, patch};
 
 /// A healthy deep-groove bearing under a radial load.
 fn plane(law: NormalLaw, friction: bool) -> Scene {
@@ -207,7 +207,7 @@ fn scenes() -> Vec<(&'static str, Scene, usize)> {
     for on in [Surface::OuterRace, Surface::InnerRace, Surface::Ball] {
         let mut scene = plane(hertz(), false);
         let mut defect = spall(on, 0.0);
-        defect.width = Width::Profile(WidthProfile::new(
+        *patch(&mut defect).1 = Width::Profile(WidthProfile::new(
             vec![-1e-3, 0.0, 1e-3],
             vec![0.2e-3, 0.9e-3, 0.2e-3],
         ));
@@ -396,7 +396,7 @@ fn a_very_small_amount_is_enough() {
         }),
         ("a lopsided spall", |s| {
             let mut defect = spall(Surface::InnerRace, 0.0);
-            defect.width = Width::Profile(WidthProfile::new(
+            *patch(&mut defect).1 = Width::Profile(WidthProfile::new(
                 vec![-1e-3, 1e-3],
                 vec![0.8e-3, 0.8e-3 + 1e-9],
             ));

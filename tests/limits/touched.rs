@@ -15,7 +15,7 @@ use ballrace::{
     BallEquilibrium, Error, Placed, Run, Signals, Start, Touched, Warning, equilibrium, explain,
     load_distribution, simulate_with_progress,
 };
-use common::{rms, run, short};
+use common::{patch, rms, run, short};
 
 const SPALL: &str = "spall";
 
@@ -393,7 +393,7 @@ fn what_is_advised_was_not_done_before() {
     assert!(advice.contains("give \"contact\" to place it"), "{advice}");
     // Placed for the whole thrust, of which the run sees the beginning.
     let mut growing = with(angular_7208(), spall(Surface::InnerRace));
-    growing.defects.get_mut(SPALL).unwrap().length = 0.5e-3;
+    *patch(growing.defects.get_mut(SPALL).unwrap()).0 = 0.5e-3;
     growing.loads.get_mut("axial").unwrap().force = TimeFunction::Profile(Profile::Ramp {
         from: 100.0,
         to: 30e3,
@@ -421,7 +421,7 @@ fn what_is_advised_was_not_done_before() {
 fn width_counts_from_zero() {
     let of = |width: Width| {
         let mut defect = spall(Surface::InnerRace);
-        defect.width = width;
+        *patch(&mut defect).1 = width;
         run(&with(angular_7208(), defect), &short(4e-3))
     };
     let none = of(0.0.into());
@@ -532,7 +532,7 @@ fn a_place_is_a_number_or_a_word() {
 #[test]
 fn what_does_not_fit_there_is_refused() {
     let mut long = spall(Surface::OuterRace);
-    long.length = 6e-3;
+    *patch(&mut long).0 = 6e-3;
     let scene = with(angular_7208(), long);
     scene.validate().unwrap();
     let error = compile(&scene).unwrap_err().to_string();

@@ -4,7 +4,7 @@
 use crate::common::one_ball;
 
 use ballrace::inspect::contact;
-use ballrace::scene::{Defect, Scene, Surface, Walls};
+use ballrace::scene::{Damage, Defect, Scene, Surface, Value};
 use ballrace::{Error, Model, Race, Start, compile, start};
 
 /// The reference contact is pressed by 250 N at this interference \[m\]: both races give way.
@@ -21,9 +21,12 @@ fn load(model: &Model, race: Race) -> f64 {
 /// A spall of a width \[m\] across the race whose nearer edge is so far beyond the contact's middle \[m\].
 fn spall(width: f64, inside: f64) -> Defect {
     let angle = (width / 2.0 - inside) / RADIUS;
-    let mut spall = Defect::new(Surface::OuterRace, angle, 4e-3, width, 0.0).at_offset(0.0);
-    spall.walls = Some(Walls::Steep);
-    spall
+    let damage = Damage::SteepPatch {
+        length: 4e-3,
+        width,
+        floor: None,
+    };
+    Defect::of(damage, Surface::OuterRace, angle).at_offset(0.0)
 }
 
 fn with(defect: &Defect) -> Scene {
@@ -68,9 +71,12 @@ fn contacts_unload_before_steep_walls() {
 #[test]
 fn walls_are_numbers_once_placed() {
     let placed = compile(&with(&spall(0.4e-3, 0.2e-3))).unwrap();
-    let defect = &placed.scene().defects["spall"];
-    assert_eq!((defect.walls, defect.edge_radius), (None, 7.94e-3 / 4.0));
-    let half = defect.width.largest() - 0.4e-3;
+    let damage = &placed.scene().defects["spall"].damage;
+    let Damage::Patch { edge_radius, .. } = damage else {
+        panic!("{damage:?}");
+    };
+    assert_eq!(*edge_radius, 7.94e-3 / 4.0);
+    let half = damage.width() - 0.4e-3;
     assert!((half / 0.1179e-3 - 1.0).abs() < 0.01, "{half}");
     let again = compile(placed.scene()).unwrap();
     assert_eq!(load(&again, Race::Outer), load(&placed, Race::Outer));
@@ -86,15 +92,20 @@ fn walls_that_cannot_be_are_refused() {
             other => panic!("{:?}", other.map(|_| ())),
         }
     };
-    let of = |change: &dyn Fn(&mut Defect)| {
-        refused(&|scene| change(scene.defects.get_mut("spall").unwrap()))
+    let in_document = |field: &str, value: Value| {
+        let path = format!("defects.spall.{field}");
+        match with(&spall(0.4e-3, 0.2e-3)).with(&[(&path, value)]) {
+            Err(Error::Scene { path, allowed, .. }) => format!("{path}: {allowed}"),
+            other => panic!("{other:?}"),
+        }
     };
-    assert!(of(&|spall| spall.edge_radius = 0.3e-3).starts_with("defects.spall.edge_radius"));
-    assert!(
-        of(&|spall| spall.shape = Defect::pit(Surface::OuterRace, 0.0, 1e-4).shape)
-            .starts_with("defects.spall.walls")
-    );
-    let narrow = of(&|spall| spall.width = 0.25e-3.into());
+    let edged = in_document("edge_radius", 0.3e-3.into());
+    assert!(edged.starts_with("defects.spall.edge_radius"));
+    assert!(in_document("shape", "pit".into()).starts_with("defects.spall.walls"));
+    let narrow = refused(&|scene| {
+        let spall = scene.defects.get_mut("spall").unwrap();
+        spall.damage.set_width(0.25e-3);
+    });
     println!("{narrow}");
     assert!(narrow.starts_with("defects.spall.width") && narrow.contains("is a pit"));
     // Without a loaded contact nothing says how wide one is.

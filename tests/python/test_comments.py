@@ -59,7 +59,7 @@ def test_a_name_with_ends_of_lines_that_toml_does_not_know(end: str) -> None:
 def test_comments_are_those_of_the_schema() -> None:
     text = br.presets.wheel_bearing().to_toml(comments=True)
     assert (
-        "width = 0.0015  # Arc length along the surface [m]; for a cap, a pit and steep walls one number.\n"
+        "width = 0.0015  # Arc length along the surface [m]; a number, or a profile along the axis.\n"
         in text
     )
     assert "speed = 188.49555921538757  # Speed [rad/s]; must not jump.\n" in text

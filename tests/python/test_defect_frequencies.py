@@ -26,7 +26,7 @@ import pytest
 
 import ballrace as br
 from ballrace import frequencies, spectra
-from ballrace.scene import ContactsProbe, Defect, ForcesProbe, MotionProbe, RingName, Surface
+from ballrace.scene import ContactsProbe, ForcesProbe, MotionProbe, Patch, RingName, Surface
 from truth import meets
 
 if TYPE_CHECKING:
@@ -41,7 +41,7 @@ SETTLED = 0.05
 """Start of what is judged [s]."""
 
 # Spalls across the whole contact, and ball defects on one track or across both.
-OUTER = Defect(
+OUTER = Patch(
     on="outer_race",
     angle=-math.pi / 2,
     axial_offset=0.0,
@@ -57,12 +57,12 @@ TRACK = 0.8e-3
 ONE_TRACK = replace(BOTH_TRACKS, axial_offset=TRACK, length=1.2e-3)
 
 
-def deep_groove(**defects: Defect) -> br.Scene:
+def deep_groove(**defects: Patch) -> br.Scene:
     scene = br.presets.deep_groove_6205(500.0, 200.0).replace({"cage.play": 0.0})
     return replace(scene, defects=defects)
 
 
-def wheel(**defects: Defect) -> br.Scene:
+def wheel(**defects: Patch) -> br.Scene:
     """Return the wheel bearing under +3 kN with Hertz contacts; the spalls grow with its balls."""
     scene = br.presets.wheel_bearing(3000.0).replace({"contact.law": "hertz"})
     wide = {

@@ -119,7 +119,7 @@ def test_the_command_line_reports_doubts(
 @pytest.mark.parametrize(
     ("changes", "path"),
     [
-        ({"defects.defect.width": 1e-6}, "defects.defect.width = 0.001 mm"),
+        ({"defects.spall.width": 1e-6}, "defects.spall.width = 0.001 mm"),
         ({"drive.speed": 3500.0}, "drive.speed = 3500 rad/s"),
         ({"loads.radial.force": 1.5, "loads.axial.force": 0.0}, "loads.radial.force = 1.5 N"),
         ({"contact.damping": 20.0}, "contact.damping = 20 s/m"),
@@ -128,11 +128,11 @@ def test_the_command_line_reports_doubts(
         ({"loads.radial.at": (0.0, 0.0, -0.06)}, "loads.radial.at = "),
         (
             {
-                "defects.defect.on": "ball",
-                "defects.defect.ball": 0,
+                "defects.spall.on": "ball",
+                "defects.spall.ball": 0,
                 "loads.axial.force": 2000.0,
             },
-            "defects.defect.on = ball",
+            "defects.spall.on = ball",
         ),
         ({"rows[0].texture": br.scene.Texture(outer=1e-7)}, "rows[0].texture.outer = 100 nm"),
     ],

@@ -243,7 +243,7 @@ def test_bearings_side_by_side_touch_and_do_not_overlap() -> None:
 
 def test_one_defect_of_a_shaft_needs_no_name() -> None:
     spall = br.defects.spall(on="inner_race", width_mm=1.0, row=1)
-    assert dict(br.shaft(BEARINGS, defects=spall).defects)["defect"].row == 1
+    assert dict(br.shaft(BEARINGS, defects=spall).defects)["spall"].row == 1
 
 
 def test_reactions_are_of_a_scene() -> None:

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import ballrace as br
-from ballrace.scene import Coulomb, MotionProbe, Ramp, SpeedDrive, Spin, Surface, WidthProfile
+from ballrace.scene import Coulomb, Dent, MotionProbe, Ramp, SpeedDrive, Spin, Surface, WidthProfile
 
 
 def test_of_a_name_they_are_the_published_ones() -> None:
@@ -208,8 +208,23 @@ def test_a_spall_fits_any_bearing(name: str, on: Surface) -> None:
     br.simulate(scene, duration=1e-4, settle=0.0)
 
 
-def test_a_dent_is_round() -> None:
-    dent = br.defects.dent(on="outer_race", diameter_mm=1.0)
+def test_a_dent_has_a_rim() -> None:
+    dent = br.defects.dent(on="outer_race", diameter_mm=0.2, rim_height_mm=0.0003, ball=None)
+    assert isinstance(dent, Dent)
+    assert (dent.width, dent.length) == (0.2e-3, 0.0)
+    assert (dent.depth, dent.rim_height) == pytest.approx((8e-6, 0.3e-6))
+    assert br.defects.dent(on="ball", diameter_mm=0.2, rim_height_mm=0.0).rim_height == 0.0
+    scene = br.bearing("6205", radial_load=500.0, defects=dent)
+    met = br.simulate(scene, duration=0.02).defects["dent"]
+    assert (met.placed, met.share) == ("contact", 1.0)
+    with pytest.raises(br.SceneError, match="smaller than its contact"):
+        br.simulate(scene.replace({"defects.dent.width": 3e-3}), duration=1e-4)
+    with pytest.raises(br.SceneError, match=r"depth_mm = 0\.01: left out beside edge_radius_mm"):
+        br.defects.dent(on="outer_race", diameter_mm=1.0, depth_mm=0.01, edge_radius_mm=0.3)
+
+
+def test_a_wide_dent_is_a_round_patch() -> None:
+    dent = br.defects.dent(on="outer_race", diameter_mm=1.0, edge_radius_mm=0.3)
     assert isinstance(dent.width, WidthProfile)
     z, w = np.asarray(dent.width.positions), np.asarray(dent.width.widths)
     np.testing.assert_allclose(z**2 + (0.5 * w) ** 2, (0.5e-3) ** 2, rtol=1e-9)

@@ -19,7 +19,7 @@ import pytest
 import ballrace as br
 from ballrace import _core
 from ballrace import scene as s
-from ballrace._document import INSTEAD, Part, Variant, decode, encode
+from ballrace._document import INSTEAD, Part, Told, Variant, decode, encode
 
 MINIMAL = s.Row(
     ball_count=9,
@@ -74,7 +74,9 @@ def every_field() -> s.Scene:
         contact=s.Contact(law=s.Iso16281(constant=4e10), damping=0.3),
         friction=s.Coulomb(coefficient=0.05, slip_speed=0.1),
     )
-    defect = s.Defect(
+    floor = s.Floor(depth=1e-5, elements=4)
+    place: dict[str, Any] = {"on": "ball", "row": 1, "ball": 2, "angle": 0.3, "axial_offset": 1e-4}
+    defect = s.Patch(
         on="outer_race",
         row=1,
         angle=-1.5,
@@ -82,7 +84,7 @@ def every_field() -> s.Scene:
         length=1e-3,
         width=s.WidthProfile(positions=(-1e-3, 1e-3), widths=(1e-3, 2e-3)),
         edge_radius=3e-4,
-        floor=s.Floor(depth=1e-5, elements=4),
+        floor=floor,
     )
     races: tuple[s.RingName, ...] = ("inner", "outer")
     return s.Scene(
@@ -141,10 +143,8 @@ def every_field() -> s.Scene:
             "outer": defect,
             "inner": dataclasses.replace(defect, on="inner_race", width=1e-3),
             "ball": dataclasses.replace(defect, on="ball", ball=3, width=1e-3, length=5e-4),
-            "steep": s.Defect(on="inner_race", angle=0.3, length=2e-3, width=1e-3, walls="steep"),
-            "cap": s.Defect(
-                on="ball", ball=2, angle=0.3, shape="cap", width=1e-3, edge_radius=3e-4
-            ),
+            "steep": s.SteepPatch(**place, length=2e-3, width=1e-3, floor=floor),
+            "cap": s.Cap(**place, width=1e-3, edge_radius=3e-4, floor=floor),
         },
         probes={
             "motion": s.MotionProbe(
@@ -223,6 +223,7 @@ def scenes() -> list[s.Scene]:
         ),
         shaped(full),
         lubricated(full),
+        dented(full),
         tilting(full),
         textured(),
     ]
@@ -278,6 +279,20 @@ def shaped(full: s.Scene) -> s.Scene:
         ),
     )
     return dataclasses.replace(full, rows=(row, other))
+
+
+def dented(full: s.Scene) -> s.Scene:
+    """A scene with damages smaller than their contacts."""
+    rows = [
+        dataclasses.replace(row, outer_shoulder_radius=None, inner_shoulder_radius=None)
+        for row in full.rows
+    ]
+    place: dict[str, Any] = {"on": "ball", "row": 1, "axial_offset": 1e-4, "width": 1e-4}
+    defects = {
+        "pit": s.Pit(**place, ball=2, angle=0.3, length=2e-4),
+        "dent": s.Dent(**place, ball=3, angle=0.4, length=2e-4, depth=8e-6, rim_height=4e-7),
+    }
+    return dataclasses.replace(full, name="dented", rows=tuple(rows), defects=defects)
 
 
 def textured() -> s.Scene:
@@ -374,7 +389,8 @@ def expected_by_core(scene: s.Scene, path: str, intruder: object) -> set[str]:
     for step in steps[:-1]:
         place = place[int(step) if isinstance(place, list) else step]
     key = int(steps[-1]) if isinstance(place, list) else steps[-1]
-    assert key in place or isinstance(key, int) or intruder == 1 or key in left_out()
+    known = left_out() | {"shape", "walls"}
+    assert key in place or isinstance(key, int) or intruder == 1 or key in known
     place[key] = intruder
     with pytest.raises(br.SceneError) as caught:
         _core.scene_from_json(json.dumps(document))
@@ -397,7 +413,7 @@ def parts() -> set[type]:
         subclasses: list[type] = todo.pop().__subclasses__()
         found |= set(subclasses)
         todo += subclasses
-    return found - {Variant, br.Run}
+    return found - {Variant, Told, s.Defect, br.Run}
 
 
 @pytest.mark.parametrize("scene", scenes(), ids=lambda scene: scene.name)
@@ -443,11 +459,22 @@ def test_fields_and_variants_have_the_same_names_in_the_core() -> None:
                     f.metadata[INSTEAD] for f in dataclasses.fields(value) if INSTEAD in f.metadata
                 ]
                 names |= {key for key, _ in also}
+                if isinstance(value, Told):
+                    names.update(value._telling)
+                    for kind in s.Defect._kinds():
+                        names |= {field.name for field in dataclasses.fields(kind)}
                 assert expected_by_core(scene, f"{inner}.stranger", 1) == names, inner
                 compared.add(type(value).__name__)
     assert {part.__name__ for part in parts()}.difference(compared) == {
         "AccurateSlices", "FittedSlices", "FixedSlices", "Given", "SpeedDrive"
     }  # fmt: skip
+
+
+def test_words_for_kinds_of_damage_are_those_of_the_core(wheel: s.Scene) -> None:
+    for key, words in (("shape", s.DefectShape), ("walls", s.DefectWalls)):
+        taken = expected_by_core(wheel, f"defects.spall.{key}", "stranger")
+        told = {getattr(kind, key) for kind in s.Defect._kinds()} - {None}
+        assert taken == told == set(typing.get_args(words))
 
 
 def test_defaults_are_those_of_the_core() -> None:
@@ -598,8 +625,54 @@ def test_a_cap_is_refused_by_the_field(
     document = whole.to_dict()["defects"]["pit"]
     assert (document["shape"], document["length"]) == ("cap", 0.0)
     with pytest.raises(br.SceneError, match=allowed) as caught:
-        dataclasses.replace(wheel, defects={"pit": dataclasses.replace(cap, **changes)}).validate()
+        whole.replace({f"defects.pit.{field}": value for field, value in changes.items()})
     assert caught.value.path == f"defects.pit.{named}"
+
+
+def test_a_defect_is_the_kind_that_its_fields_say() -> None:
+    """As documents of schema 1 have them, which older programs write."""
+    place: dict[str, Any] = {"on": "ball", "ball": 2, "angle": 0.3}
+    sizes = {"length": 2e-3, "width": 1e-3}
+    cases: list[tuple[dict[str, Any], type[s.Defect]]] = [
+        ({**sizes, "edge_radius": 3e-4}, s.Patch),
+        ({**sizes, "edge_radius": 3e-4, "shape": None, "walls": None, "floor": None}, s.Patch),
+        ({**sizes, "walls": "steep"}, s.SteepPatch),
+        ({"width": 1e-3, "edge_radius": 3e-4, "shape": "cap", "length": 0.0}, s.Cap),
+        ({"width": 2e-4, "shape": "pit", "edge_radius": 0.0}, s.Pit),
+        ({"width": 2e-4, "shape": "dent", "depth": 8e-6, "rim_height": 4e-7}, s.Dent),
+    ]
+    for fields, kind in cases:
+        defect = s.Defect(**place, **fields)
+        assert isinstance(defect, kind)
+        assert defect == kind(**place, **{k: v for k, v in fields.items() if k in own(kind)})
+        assert copy.copy(pickle.loads(pickle.dumps(defect))) == defect
+        document = defect.to_dict()
+        assert all(document.get(key) == value for key, value in fields.items())
+    with pytest.raises(br.SceneError, match=r"edge_radius = 0\.0003: left out"):
+        s.Defect(**place, width=2e-4, shape="pit", edge_radius=3e-4)
+    with pytest.raises(br.SceneError, match="shape = 'cup': left out, or cap or dent or pit"):
+        s.Defect(**place, width=2e-4, shape="cup")
+
+
+def own(kind: type[s.Defect]) -> set[str]:
+    return {field.name for field in dataclasses.fields(kind)}
+
+
+def test_a_defect_given_alone_has_the_name_of_its_shape() -> None:
+    for defect, name in [
+        (br.defects.spall(on="outer_race", width_mm=1.0), "spall"),
+        (br.defects.spall(on="outer_race", width_mm=1.0, walls="steep"), "spall"),
+        (br.defects.cap(width_mm=1.0), "cap"),
+        (br.defects.pit(on="outer_race", diameter_mm=0.2), "pit"),
+        (br.defects.dent(on="outer_race", diameter_mm=0.2), "dent"),
+    ]:
+        scene = br.bearing("6205", radial_load=500.0, defects=defect)
+        assert list(scene.defects) == [name]
+    # The name of before is told; a document that has it keeps it.
+    with pytest.raises(br.SceneError, match="defect given alone is named by its shape"):
+        scene.replace({"defects.defect.width": 1e-4})
+    older = scene.replace({"defects": {"defect": scene.defects["dent"]}})
+    assert older.replace({"defects.defect.width": 1e-4}).defects["defect"].width == 1e-4
 
 
 def test_documents_of_patches_do_not_name_shapes(wheel: s.Scene) -> None:
@@ -612,15 +685,15 @@ def test_a_spall_between_steep_walls_is_placed_with_its_numbers() -> None:
     spall = br.defects.spall(on="outer_race", width_mm=0.8, walls="steep")
     scene = br.bearing("6205", radial_load=500.0, defects=spall)
     assert s.Scene.from_toml(scene.to_toml()) == scene
-    assert scene.to_dict()["defects"]["defect"]["walls"] == "steep"
+    assert scene.to_dict()["defects"]["spall"]["walls"] == "steep"
     out = br.simulate(scene, duration=0.01)
-    placed, met = out.scene.defects["defect"], out.defects["defect"]
+    placed, met = out.scene.defects["spall"], out.defects["spall"]
     assert placed.walls is None
     assert placed.edge_radius == pytest.approx(7.94e-3 / 4.0, rel=1e-12)
     # The run's heaviest contact is not quite that at rest.
     assert met.contact_width is not None
     assert placed.width == pytest.approx(0.8e-3 + met.contact_width / 2.0, rel=0.05)
-    assert "walls" not in out.scene.to_dict()["defects"]["defect"]
+    assert "walls" not in out.scene.to_dict()["defects"]["spall"]
     rolled = br.defects.spall(on="outer_race", width_mm=0.8)
     assert (rolled.edge_radius, rolled.walls) == (0.3e-3, None)
 

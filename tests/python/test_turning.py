@@ -120,7 +120,7 @@ def test_a_hub_runs_and_has_its_frequencies() -> None:
     # A place of the outer race meets a ball as often as balls fall behind the ring.
     assert 30.0 - measured.ftf == pytest.approx(measured.bpfo / 9.0)
     assert out["outer.theta"][-1] == pytest.approx(1800.0 * TURN * out.t[-1], rel=1e-3)
-    assert out.defects["defect"].passes >= 4
+    assert out.defects["spall"].passes >= 4
     features = out.features(columns=["outer.ay"])
     assert features["turns"] == pytest.approx(1.5, rel=0.01)
     assert "outer.ay.row0.bpfo_sidebands" in features
@@ -303,12 +303,12 @@ def test_pictures_turn_the_damage_of_the_outer_race() -> None:
     out = br.simulate(scene.replace({"probes": br.plot.probes(scene)}), duration=0.004)
     fig = br.plot.animation(out, frames=3)
     places = [
-        next(trace.x for trace in frame.data if trace.name == "defect") for frame in fig.frames
+        next(trace.x for trace in frame.data if trace.name == "spall") for frame in fig.frames
     ]
     assert not np.allclose(places[0], places[-1])
     solid = br.plot.animation3d(out, frames=3)
     names = [trace.name for trace in solid.data]
-    assert names.count("defect") == 1
+    assert names.count("spall") == 1
 
 
 def test_a_run_up_of_a_hub_has_an_order_map() -> None:

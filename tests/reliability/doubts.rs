@@ -346,7 +346,7 @@ const SLIPS: &[Slip] = &[
     ("rows[0].clearance", |s| s.rows[0].clearance = -100e-6),
     ("contact.damping", |s| s.contact.damping = 20.0),
     ("defects.a.width", |s| {
-        s.defects.get_mut("a").unwrap().width = 1e-6.into();
+        s.defects.get_mut("a").unwrap().damage.set_width(1e-6);
     }),
     ("drive.speed", |s| {
         s.drive = Drive::Speed((29.95 * PI / 30.0).into());

@@ -2,8 +2,10 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use ballrace::scene::{Defect, Floor, GothicArch, Scene, Surface, Width, WidthProfile, presets};
+use ballrace::scene::{Defect, GothicArch, Scene, Surface, Value, presets};
 use ballrace::{Error, compile, explain};
+
+use serde_json::json;
 
 use crate::common::through_points;
 
@@ -37,23 +39,26 @@ fn impossible_pits_are_refused() {
             other => panic!("{:?}", other.map(|_| ())),
         }
     };
-    let of = |change: &dyn Fn(&mut Defect)| {
-        refused(&|scene| change(scene.defects.get_mut("pit").unwrap()))
+    let of = |field: &str, value: Value| {
+        let path = format!("defects.pit.{field}");
+        match with_pit().with(&[(&path, value)]) {
+            Err(Error::Scene { path, .. }) => path,
+            Ok(scene) => match compile(&scene) {
+                Err(Error::Scene { path, .. }) => path,
+                other => panic!("{:?}", other.map(|_| ())),
+            },
+            other => panic!("{other:?}"),
+        }
     };
-    assert_eq!(
-        of(&|pit| pit.edge_radius = 0.1e-3),
-        "defects.pit.edge_radius"
-    );
-    assert_eq!(
-        of(&|pit| pit.floor = Some(Floor::new(1e-6, 3))),
-        "defects.pit.floor"
-    );
-    let profile = || Width::Profile(WidthProfile::new(vec![-1e-4, 1e-4], vec![1e-4, 2e-4]));
-    assert_eq!(of(&|pit| pit.width = profile()), "defects.pit.width");
-    assert_eq!(of(&|pit| pit.length = -1.0), "defects.pit.length");
+    assert_eq!(of("edge_radius", 0.1e-3.into()), "defects.pit.edge_radius");
+    let floor = json!({ "depth": 1e-6, "elements": 3 });
+    assert_eq!(of("floor", floor), "defects.pit.floor");
+    let profile = json!({ "positions": [-1e-4, 1e-4], "widths": [1e-4, 2e-4] });
+    assert_eq!(of("width", profile), "defects.pit.width");
+    assert_eq!(of("length", (-1.0).into()), "defects.pit.length");
     // Beyond 0.9 a, and beyond 1.8 of the energy.
-    assert_eq!(of(&|pit| pit.length = 3e-3), "defects.pit.width");
-    assert_eq!(of(&|pit| pit.width = 1.5e-3.into()), "defects.pit.width");
+    assert_eq!(of("length", 3e-3.into()), "defects.pit.width");
+    assert_eq!(of("width", 1.5e-3.into()), "defects.pit.width");
     let arch = |scene: &mut Scene| scene.rows[0].outer_arch = Some(GothicArch::new(0.3));
     assert_eq!(refused(&arch), "defects.pit.shape");
     let points = |scene: &mut Scene| *scene = through_points(scene, 300);

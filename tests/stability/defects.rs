@@ -11,7 +11,7 @@ use ballrace::scene::{
     ContactQuantity, Defect, Drive, Friction, Probe, RingName, Scene, Slices, Surface, presets,
 };
 use ballrace::{Race, Run, Signals, Start, start};
-use common::{apart, rms, run, short, soon_over_the_spall};
+use common::{apart, patch, rms, run, short, soon_over_the_spall};
 
 fn ay(out: &Signals) -> &[f64] {
     out.get("outer.ay").unwrap()
@@ -20,7 +20,12 @@ fn ay(out: &Signals) -> &[f64] {
 /// The wheel bearing with a spall of another width, which a ball crosses about 1.2 ms after the start.
 fn with_width(width: f64) -> Scene {
     let mut scene = soon_over_the_spall(3000.0);
-    scene.defects.get_mut("spall").unwrap().width = width.into();
+    scene
+        .defects
+        .get_mut("spall")
+        .unwrap()
+        .damage
+        .set_width(width);
     scene
 }
 
@@ -177,7 +182,7 @@ fn overlapping_defects_are_their_union() {
     let mut halves = one.clone();
     for (name, shift) in [("spall", -0.25e-3), ("other", 0.25e-3)] {
         let mut half = spall.clone();
-        half.width = 1e-3.into();
+        half.damage.set_width(1e-3);
         half.angle = spall.angle + shift / radius;
         halves.defects.insert(name.to_owned(), half);
     }
@@ -246,7 +251,8 @@ fn a_defect_under_an_unloaded_ball_is_not_felt() {
 fn at_minus_3_kilonewtons_contact_in_the_faulty_region_is_unstable() {
     let cases = [-3000.0, 0.0, 3000.0].map(|axial| {
         let mut scene = soon_over_the_spall(axial);
-        let spall = scene.defects["spall"].clone();
+        let mut spall = scene.defects["spall"].clone();
+        let length = *patch(&mut spall).0;
         let count = 600_u32;
         let times: Vec<f64> = (0..count).map(|i| 4e-3 * f64::from(i) / f64::from(count)).collect();
         scene.probes.insert(
@@ -263,7 +269,7 @@ fn at_minus_3_kilonewtons_contact_in_the_faulty_region_is_unstable() {
             out.slices
                 .iter()
                 .filter(|slice| slice.time == time && ball.is_none_or(|ball| slice.ball == ball))
-                .filter(|slice| !region || (slice.z + 11e-3 - spall.axial_offset.number().unwrap()).abs() < spall.length / 2.0)
+                .filter(|slice| !region || (slice.z + 11e-3 - spall.axial_offset.number().unwrap()).abs() < length / 2.0)
                 .map(|slice| slice.force)
                 .sum()
         };

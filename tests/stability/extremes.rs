@@ -140,7 +140,7 @@ fn nan_infinite_and_absurd_input_is_refused_by_name() {
             ("drive.speed", |s, x| s.drive = Drive::Speed(x.into())),
             ("gravity[1]", |s, x| s.gravity[1] = x),
             ("defects.spall.width", |s, x| {
-                s.defects.get_mut("spall").unwrap().width = x.into();
+                s.defects.get_mut("spall").unwrap().damage.set_width(x);
             }),
             ("solver.rtol", |s, x| s.solver.rtol = x),
         ];

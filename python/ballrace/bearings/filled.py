@@ -20,6 +20,7 @@ from ..scene import (
     Scene,
     SpeedDrive,
 )
+from ..scene.defect import named_by_shape
 from ..scene.lubricant import chosen
 
 if TYPE_CHECKING:
@@ -68,7 +69,7 @@ def filled(
     speed_rpm = finite("speed_rpm", speed_rpm, "rev/min")
     if outer_rpm is not None:
         outer_rpm = finite("outer_rpm", outer_rpm, "rev/min")
-    one = {"defect": defects} if isinstance(defects, Defect) else defects
+    one = {named_by_shape(defects): defects} if isinstance(defects, Defect) else defects
     return Scene(
         name=name,
         rows=rows,

@@ -12,6 +12,7 @@ _UNITS = {
     "force": "N", "width": "m", "length": "m", "clearance": "m", "axial_offset": "m", "edge_radius": "m",
     "ball_diameter": "m", "pitch_diameter": "m", "speed": "rad/s", "angle": "rad", "start_angle": "rad",
     "contact_angle": "rad", "axial_preload": "m", "mass": "kg", "stiffness": "N/m", "amplitude": "m", "depth": "m",
+    "rim_height": "m",
     "load_max": "N", "load_min": "N", "film_min": "m", "friction_torque_mean": "N m", "slip_power_mean": "W",
     "rolling_power_mean": "W", "damping_power_mean": "W", "drag_power_mean": "W",
 }  # fmt: skip

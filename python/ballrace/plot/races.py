@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from .._ellipse import semi_axes
-from ..scene.defect import widest
+from ..scene.defect import extent, widest
 from ..statics import Equilibrium, equilibrium
 from .maps import SHADES
 from .outlines import race_radius
@@ -142,12 +142,12 @@ def _defect(fig: go.Figure, row: Row, name: str, defect: Defect, place: int) -> 
     middle = math.degrees(float(_wrapped(np.array(defect.angle))))
     assert not isinstance(defect.axial_offset, str)
     z = 1e3 * defect.axial_offset
-    end = 0.5e3 * defect.length
+    end = 0.5e3 * extent(defect)
     box = Scatter(
         x=[middle + s * half for s in (-1, 1, 1, -1, -1)], y=[z + s * end for s in (-1, -1, 1, 1, -1)],
         mode="lines", line={"color": COLOURS[1], "width": 2, "dash": "solid"}, fill="toself",
         fillcolor="rgba(200,69,47,0.25)", hoverinfo="text",
-        text=f"{name}: {1e3 * width:.2f} × {1e3 * defect.length:.2f} mm",
+        text=f"{name}: {1e3 * width:.2f} × {1e3 * extent(defect):.2f} mm",
     )  # fmt: skip
     fig.add_trace(box, row=place, col=1)
     fig.add_annotation(x=middle + half, y=z - end, text=name, ax=34, ay=22, font={"color": COLOURS[1]},

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import ClassVar, Literal
 
 from .._document import Part, Variant
 
@@ -32,6 +32,8 @@ class Iso16281(Variant, tag="iso16281"):
     length_ratio : float
         Equivalent length of the line contact over the ball diameter [1].
     """
+
+    called: ClassVar[str] = "ISO/TS 16281 slices"
 
     constant: float = 3.5948e10
     length_ratio: float = 0.5

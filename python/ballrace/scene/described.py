@@ -13,7 +13,7 @@ import typing
 from collections.abc import Mapping
 from typing import Any
 
-from .._document import INSTEAD, Part, Variant, encode
+from .._document import INSTEAD, Part, Told, Variant, encode
 
 __all__ = ["described"]
 
@@ -101,8 +101,27 @@ def _reference(kind: type[Part], known: dict[str, Any]) -> dict[str, Any]:
     name = kind.__name__
     if name not in known:
         known[name] = {}  # stands while its fields are looked at
-        known[name] = _variant(kind, known) if issubclass(kind, Variant) else _part(kind, known)
+        if issubclass(kind, Told):
+            known[name] = _flat(kind, known)
+        else:
+            known[name] = _variant(kind, known) if issubclass(kind, Variant) else _part(kind, known)
     return {"$ref": f"#/$defs/{name}"}
+
+
+def _flat(kind: type[Told], known: dict[str, Any]) -> dict[str, Any]:
+    """Return the fields of all kinds of a part side by side, as in a document, and the keys that tell the kind."""
+    whole, descriptions = _part(kind, known), _descriptions(kind)
+    parts = [_part(each, known) for each in kind._kinds()]
+    fields: dict[str, Any] = {}
+    for part in (whole, *parts):
+        fields = {**part["properties"], **fields}
+    told = {}
+    for key in kind._telling:
+        words = [word for each in kind._kinds() if (word := getattr(each, key)) is not None]
+        choices = [{"enum": words}, {"type": "null"}]
+        told[key] = {"anyOf": choices, "description": descriptions[key]}
+    needed = [key for key in fields if all(key in part["required"] for part in parts)]
+    return {**whole, "properties": {**fields, **told}, "required": needed}
 
 
 def _variant(kind: type[Variant], known: dict[str, Any]) -> dict[str, Any]:

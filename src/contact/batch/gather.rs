@@ -3,7 +3,7 @@
 // Everything here must be compiled for the instructions of its caller.
 #![allow(clippy::inline_always)]
 
-use crate::contact::defect::Sight;
+use crate::contact::damage::Sight;
 use crate::contact::profile::{HeightTable, Raise, Section};
 use crate::contact::{FilmNumbers, Motion, Pair};
 use crate::simd::{LANES, Lanes, Mask, direction};

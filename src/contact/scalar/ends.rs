@@ -27,7 +27,10 @@ impl OneContact<'_> {
         let inset = 1e-9 * (high - low);
         let low = low + inset;
         let step = (high - inset - low) / LOOKS as f64;
-        let at = |u: f64| self.node(line, u, 0.0).map(|node| self.penetrations(&node));
+        let at = |u: f64| {
+            self.node(line, u, 0.0)
+                .map(|node| self.facing.penetrations(&node))
+        };
         let mut keep = |of: &dyn Fn(f64) -> f64, a: (f64, f64), b: (f64, f64)| {
             if (a.1 > 0.0) != (b.1 > 0.0) && count < MOST_ENDS {
                 ends[count] = root(of, a, b);

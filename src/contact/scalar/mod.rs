@@ -1,22 +1,27 @@
 //! One ball on one race: finds the zone of contact, and cuts it into slices.
 
+#[cfg(test)]
+mod cap_tests;
 mod coat;
 mod ends;
-mod over_defects;
+#[cfg(test)]
+mod gradient_tests;
+mod pressing;
 mod rubbing;
 mod shape;
 mod slices;
+mod within;
 
-pub(crate) use over_defects::Sighted;
 pub(super) use shape::Kind;
 pub use shape::Shape;
-pub(super) use slices::{Line, Node};
+use slices::Line;
+pub(crate) use within::Sighted;
 
 use std::mem::discriminant;
 
-use super::defect::Yield;
+use super::damage::{Facing, Moving, SurfaceSide, Yield};
 use super::laws::traction::Rolling;
-use super::profile::{Before, Meeting, RaceSurface, Raise, Section};
+use super::profile::{Before, Meeting, Raise, Section};
 use super::slip::{Moves, Slip};
 use super::{
     Cut, FilmEffect, FilmNumbers, Law, Motion, OilTouch, Oiled, Sink, SurfaceDefect, Torus, Touch,
@@ -106,7 +111,7 @@ impl Pair {
         let raise = self.waves.raise(r.angle_of(angle));
         let swell = ball.waves.raise(b.angle_of(self.outwards(angle)));
         let z = seen.z;
-        let facing = Facing {
+        let standing = Standing {
             apart,
             distance,
             z,
@@ -122,7 +127,7 @@ impl Pair {
                 z,
             };
             for meeting in contour.meetings(before) {
-                self.meet(ball, [b, r], &facing, &meeting, sink);
+                self.meet(ball, [b, r], &standing, &meeting, sink);
             }
             return;
         }
@@ -141,8 +146,8 @@ impl Pair {
                 Cut::CommonTangent { curvature } => Line::along_tangent(curvature, &section),
             };
             let Some(line) = line else { continue };
-            let contact = flank.contact(ball, [b, r], &facing, section);
-            contact.press(&line, [b, r], &facing, sink);
+            let contact = flank.contact(ball, [b, r], &standing, section);
+            contact.press(&line, [b, r], &standing, sink);
         }
     }
 
@@ -151,7 +156,7 @@ impl Pair {
         &self,
         ball: &BallSide,
         motions: [&Motion; 2],
-        facing: &Facing,
+        standing: &Standing,
         meeting: &Meeting<'_>,
         sink: &mut S,
     ) {
@@ -167,13 +172,11 @@ impl Pair {
         if meeting.ends_within(line.ends()) {
             sink.truncated();
         }
-        let contact = OneContact {
-            race: meeting.torus,
-            surface: Some(meeting.surface),
-            middle: line.middle(),
-            ..self.contact(ball, motions, facing, section)
-        };
-        contact.press(&line, motions, facing, sink);
+        let mut contact = self.contact(ball, motions, standing, section);
+        contact.facing.race = meeting.torus;
+        contact.facing.surface = Some(meeting.surface);
+        contact.middle = line.middle();
+        contact.press(&line, motions, standing, sink);
     }
 
     /// A contact with the torus.
@@ -181,10 +184,10 @@ impl Pair {
         &'a self,
         ball: &'a BallSide,
         [b, r]: [&'a Motion; 2],
-        facing: &Facing,
+        standing: &Standing,
         section: Section<f64>,
     ) -> OneContact<'a> {
-        let Facing {
+        let Standing {
             apart,
             distance,
             z,
@@ -192,38 +195,49 @@ impl Pair {
             angle,
             raise,
             swell,
-        } = *facing;
+        } = *standing;
         let on_ring = r.angle_of(angle);
         let toward = Toward::ball(b, n * self.race.sigma, self.outwards(angle));
-        let is_arc = |defect: &&SurfaceDefect| !defect.is_pit();
+        let cuts = |defect: &&SurfaceDefect| defect.cuts();
         let on_race = Toward::race(on_ring);
-        let mut arcs = self.defects.iter().filter(is_arc);
+        let mut arcs = self.defects.iter().filter(cuts);
         let ring_open = arcs.any(|defect| defect.in_reach(&on_race));
-        let mut arcs = ball.defects.iter().filter(is_arc);
+        let mut arcs = ball.defects.iter().filter(cuts);
         let ball_near = arcs.any(|defect| defect.in_reach(&toward));
         OneContact {
+            facing: Facing {
+                race: self.race,
+                surface: None,
+                race_side: SurfaceSide {
+                    waves: &self.waves,
+                    defects: &self.defects,
+                },
+                ball_side: SurfaceSide {
+                    waves: &ball.waves,
+                    defects: &ball.defects,
+                },
+                law: &self.law,
+                radius: ball.radius,
+                b,
+                r,
+                apart,
+                distance,
+                z,
+                n,
+                on_ring,
+                raise,
+                swell,
+                ring_open,
+                // A ring edge is met in another direction than the race.
+                ball_open: ball_near || ring_open && ball.defects.iter().any(|f| cuts(&f)),
+                yields: Yield::default(),
+                section,
+            },
             pair: self,
-            race: self.race,
-            surface: None,
-            ball,
-            b,
-            r,
-            apart,
-            distance,
-            z,
-            n,
-            on_ring,
-            raise,
-            swell,
-            ring_open,
-            // A ring edge is met in another direction than the race.
-            ball_open: ball_near || ring_open && ball.defects.iter().any(|f| is_arc(&f)),
-            yields: Yield::default(),
             slip: None,
             middle: 0.0,
             oil: FilmEffect::default(),
-            section,
-            rolling: self.moves([b, r], facing).rolling,
+            rolling: self.moves([b, r], standing).rolling,
         }
     }
 
@@ -243,8 +257,8 @@ impl Pair {
     }
 
     /// How the ball moves against the ring.
-    fn moves(&self, [b, r]: [&Motion; 2], facing: &Facing) -> Moves<f64> {
-        let Facing { distance, n, .. } = *facing;
+    fn moves(&self, [b, r]: [&Motion; 2], standing: &Standing) -> Moves<f64> {
+        let Standing { distance, n, .. } = *standing;
         let (velocity, sigma) = (b.seen_from(r).velocity, self.race.sigma);
         let across = velocity.dot(&turned(n));
         Moves {
@@ -257,7 +271,7 @@ impl Pair {
             } else {
                 Rolling::resting(distance)
             },
-            arm: self.race.a + facing.raise.height - distance,
+            arm: self.race.a + standing.raise.height - distance,
             oil: FilmEffect::default(),
         }
     }
@@ -285,7 +299,7 @@ impl Pair {
 }
 
 /// A ball as it stands before a ring.
-struct Facing {
+struct Standing {
     /// From the ring's centre to the ball's, and how far.
     apart: V2,
     distance: f64,
@@ -302,40 +316,16 @@ struct Facing {
 
 /// A contact being evaluated.
 #[derive(Clone, Copy)]
-pub(super) struct OneContact<'a> {
-    pub(super) pair: &'a Pair,
-    /// The torus, or that of the circle of curvature of another shape where it is met.
-    pub(super) race: Torus,
-    /// The race where it is a curve through points.
-    pub(super) surface: Option<RaceSurface<'a>>,
-    pub(super) ball: &'a BallSide,
-    pub(super) b: &'a Motion,
-    pub(super) r: &'a Motion,
-    /// From the ring's centre to the ball's.
-    pub(super) apart: V2,
-    pub(super) distance: f64,
-    /// Axial place of the ball in the ring's frame.
-    pub(super) z: f64,
-    /// Unit vector of `apart`.
-    pub(super) n: V2,
-    /// Direction of the ball in the ring's frame.
-    pub(super) on_ring: f64,
-    /// Of the race by its waves.
-    pub(super) raise: Raise<f64>,
-    /// Of the ball by its texture.
-    pub(super) swell: Raise<f64>,
-    pub(super) ring_open: bool,
-    pub(super) ball_open: bool,
-    /// What pits make of its elastic forces.
-    pub(super) yields: Yield,
-    pub(super) section: Section<f64>,
+struct OneContact<'a> {
+    facing: Facing<'a>,
+    pair: &'a Pair,
     /// Along the line, if there is friction; on a curve through points that along the circle of curvature.
-    pub(super) slip: Option<Slip<f64>>,
+    slip: Option<Slip<f64>>,
     /// The place on the line that slip is counted from: the middle of the zone.
-    pub(super) middle: f64,
-    pub(super) rolling: Rolling<f64>,
+    middle: f64,
+    rolling: Rolling<f64>,
     /// What its film does.
-    pub(super) oil: FilmEffect<f64>,
+    oil: FilmEffect<f64>,
 }
 
 impl OneContact<'_> {
@@ -344,33 +334,46 @@ impl OneContact<'_> {
         mut self,
         line: &Line,
         motions: [&Motion; 2],
-        facing: &Facing,
+        standing: &Standing,
         sink: &mut S,
     ) {
-        let mut moves = self.pair.moves(motions, facing);
+        let mut moves = self.pair.moves(motions, standing);
         let oiled = self.pair.law.film.as_ref().map(|oiled| {
             let r = self.load_measure(oiled, line);
             (oiled, r)
         });
-        let pits = self.find_pits(line);
-        let oiled = oiled.map(|(oiled, r)| (oiled, r * self.yields.share.cbrt()));
+        let damages = self.release(line);
+        let oiled = oiled.map(|(oiled, r)| (oiled, r * self.facing.yields.share.cbrt()));
         if let Some((oiled, r)) = oiled {
             self.oil = FilmEffect::at(&FilmNumbers::new(oiled), r);
             moves.oil = self.oil;
         }
-        let n_e = self.n * self.race.sigma;
-        let across = [self.b.across.dot(&n_e), self.b.across.dot(&turned(n_e))];
-        self.slip = self.pair.slip_along(line, &self.section, &moves, across);
+        let n_e = self.facing.n * self.facing.race.sigma;
+        let across = [
+            self.facing.b.across.dot(&n_e),
+            self.facing.b.across.dot(&turned(n_e)),
+        ];
+        self.slip = self
+            .pair
+            .slip_along(line, &self.facing.section, &moves, across);
         if self.middle != 0.0 {
             self.slip = self.slip.map(|slip| slip.from::<false>(self.middle));
         }
         self.slices(line, sink);
-        if let Some(pits) = &pits {
-            self.pit_forces(pits, sink);
+        if let Some(damages) = &damages {
+            self.facing.place_forces(damages, sink);
         }
         if let Some((oiled, r)) = oiled {
-            let (sigma, lever) = (self.race.sigma, self.section.radius * self.section.normal.0);
-            sink.oil(&OilTouch::new(oiled, r, &moves, (sigma, self.apart, lever)));
+            let (sigma, lever) = (
+                self.facing.race.sigma,
+                self.facing.section.radius * self.facing.section.normal.0,
+            );
+            sink.oil(&OilTouch::new(
+                oiled,
+                r,
+                &moves,
+                (sigma, self.facing.apart, lever),
+            ));
         }
     }
 
@@ -378,19 +381,16 @@ impl OneContact<'_> {
     /// known before the nodes.
     fn load_measure(&self, oiled: &Oiled, line: &Line) -> f64 {
         let reference = oiled.film.reference();
-        let Some(half) = line.half(&self.section) else {
+        let Some(half) = line.half(&self.facing.section) else {
             return (self.elastic_force(line) / reference.load).cbrt();
         };
         let r = half / reference.half_length;
-        if !(self.ring_open || self.ball_open) || r == 0.0 {
+        if !(self.facing.ring_open || self.facing.ball_open) || r == 0.0 {
             return r;
         }
         // Cut at the same places, so that nothing jumps where a defect comes into reach.
-        let healthy = OneContact {
-            ring_open: false,
-            ball_open: false,
-            ..*self
-        };
+        let mut healthy = *self;
+        (healthy.facing.ring_open, healthy.facing.ball_open) = (false, false);
         let [pressed, whole] = [self, &healthy].map(|contact| contact.elastic_force(line));
         if whole > 0.0 {
             r * (pressed / whole).cbrt()
@@ -406,18 +406,18 @@ impl OneContact<'_> {
         sum.0
     }
 
-    /// Height of the race over the groove's centre at an axial place of the ring's frame; none where there is none.
-    pub(super) fn groove(&self, z: f64) -> Option<f64> {
-        match &self.surface {
-            None => self.race.groove(z),
-            Some(surface) => Some(self.race.sigma * (surface.at(z)?.radius - self.race.a)),
+    /// Finds the damages in the contact that are smaller than it, and scales its elastic forces by them.
+    fn release(&mut self, line: &Line) -> Option<Moving> {
+        let damages = self.facing.small_damages()?;
+        let mut sum = EnergySum(0.0);
+        self.slices(line, &mut sum);
+        if sum.0 <= 0.0 {
+            return None;
         }
-    }
-
-    /// (cos α', sin α') of the common normal, where all elements press along it.
-    pub(super) fn common(&self) -> Option<(f64, f64)> {
-        let is_flat = self.pair.law.cut().is_flat();
-        is_flat.then_some(self.section.normal)
+        let race = usize::from(self.facing.race.sigma < 0.0);
+        let (share, moving) = damages.release(race, sum.0)?;
+        self.facing.yields = share;
+        Some(moving)
     }
 }
 
@@ -427,5 +427,18 @@ struct ElasticSum(f64);
 impl Sink for ElasticSum {
     fn touch(&mut self, touch: &Touch) {
         self.0 += touch.elastic;
+    }
+}
+
+/// Adds up elastic energies.
+struct EnergySum(f64);
+
+impl Sink for EnergySum {
+    fn asks_energy(&self) -> bool {
+        true
+    }
+
+    fn touch(&mut self, touch: &Touch) {
+        self.0 += touch.energy;
     }
 }

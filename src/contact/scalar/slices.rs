@@ -9,20 +9,10 @@
 //! zones of their own: their ends are searched for, and plain Gauss nodes lie on every smooth piece.
 
 use super::OneContact;
-use crate::contact::defect::Station;
+use crate::contact::damage::{BESIDE, Node, Owner};
 use crate::contact::profile::{Chord, Ends, Section, Zone};
 use crate::contact::quadrature::MOST;
 use crate::contact::{Rules, Sink, SurfaceDefect, Toward, ZoneSlices};
-
-/// To which body an axial end of a defect belongs.
-#[derive(Clone, Copy, PartialEq)]
-pub(super) enum Owner {
-    Ring,
-    Ball,
-}
-
-/// How far beside an end its two sides are looked at \[m\]: rounding only.
-pub(super) const BESIDE: f64 = 1e-12;
 
 /// The line along which a contact is cut, over the zone low … high of u.
 pub(in crate::contact) struct Line {
@@ -137,46 +127,6 @@ impl Line {
     }
 }
 
-/// One slice or node, before it is known what it meets.
-#[derive(Clone, Copy)]
-pub(in crate::contact) struct Node {
-    pub(in crate::contact) zeta: f64,
-    pub(in crate::contact) rho: f64,
-    /// Place in the ring's frame.
-    pub(in crate::contact) z: f64,
-    pub(in crate::contact) width: f64,
-    /// Healthy penetration that the law sees.
-    pub(in crate::contact) depth: f64,
-    /// Height of the groove over its centre at z.
-    pub(in crate::contact) groove: f64,
-    /// Radius of the round race at z.
-    pub(in crate::contact) torus_radius: f64,
-    /// By how much beside it defects are looked for (see [`Station`]).
-    pub(in crate::contact) beside: f64,
-    /// What friction weighs here over the normal force.
-    pub(in crate::contact) rubbing: f64,
-}
-
-impl Node {
-    /// On the race.
-    pub(in crate::contact) fn on_ring(&self) -> Station {
-        Station {
-            z: self.z,
-            beside: self.beside,
-            radius: self.torus_radius,
-        }
-    }
-
-    /// On the ball.
-    pub(in crate::contact) fn on_ball(&self) -> Station {
-        Station {
-            z: self.zeta,
-            beside: self.beside,
-            radius: self.rho,
-        }
-    }
-}
-
 /// A stretch of the zone and how the penetration ends on both sides.
 #[derive(Clone, Copy)]
 struct ZonePiece {
@@ -195,16 +145,23 @@ impl OneContact<'_> {
             ZoneSlices::Fixed(count) => self.fixed(line, *count, sink),
             ZoneSlices::Fitted(rules) => self.fitted(line, rules, sink),
         }
-        if self.ring_open && self.feels_ring_ends() {
+        if self.facing.ring_open && self.facing.feels_ring_ends() {
             // Of all: one out of reach may overlap one in reach.
             for zeta in different(self.ends_on_race(|_| true)) {
-                self.end(line, zeta, Owner::Ring, sink);
+                self.end((line, zeta), Owner::Ring, sink);
             }
         }
-        if self.ball_open {
+        if self.facing.ball_open {
             for zeta in different(self.ends_on_ball()) {
-                self.end(line, zeta, Owner::Ball, sink);
+                self.end((line, zeta), Owner::Ball, sink);
             }
+        }
+    }
+
+    /// What the axial end of a defect at a place ζ of a line adds.
+    fn end<S: Sink + ?Sized>(&self, (line, zeta): (&Line, f64), owner: Owner, sink: &mut S) {
+        if let Some(node) = self.node_of(line, zeta) {
+            self.facing.end(&node, owner, sink);
         }
     }
 
@@ -213,8 +170,8 @@ impl OneContact<'_> {
         &self,
         wanted: impl Fn(&SurfaceDefect) -> bool + Clone,
     ) -> impl Iterator<Item = f64> + Clone {
-        let dz = self.z;
-        let defects = self.pair.defects.iter();
+        let dz = self.facing.z;
+        let defects = self.facing.race_side.defects.iter();
         defects
             .filter(move |defect| wanted(defect))
             .flat_map(SurfaceDefect::ends)
@@ -223,14 +180,14 @@ impl OneContact<'_> {
 
     /// Places ζ where defects of the ball end.
     fn ends_on_ball(&self) -> impl Iterator<Item = f64> + Clone {
-        let defects = self.ball.defects.iter();
+        let defects = self.facing.ball_side.defects.iter();
         defects
-            .filter(|_| self.ball_open)
+            .filter(|_| self.facing.ball_open)
             .flat_map(SurfaceDefect::ends)
     }
 
     fn fixed<S: Sink + ?Sized>(&self, line: &Line, count: usize, sink: &mut S) {
-        let radius = self.ball.radius;
+        let radius = self.facing.radius;
         let width = line.of_slice(2.0 * radius / count as f64);
         let [low, high] = line.ends();
         if line.is_tangent() && low.min(-high) < -radius {
@@ -249,9 +206,9 @@ impl OneContact<'_> {
 
     /// The zone in pieces between the ends of shoulders and of defects in reach.
     fn fitted<S: Sink + ?Sized>(&self, line: &Line, rules: &Rules, sink: &mut S) {
-        let race = &self.race;
-        let dz = self.z;
-        let toward = Toward::race(self.on_ring);
+        let race = &self.facing.race;
+        let dz = self.facing.z;
+        let toward = Toward::race(self.facing.on_ring);
         let shoulders = [race.centre + race.lowest, race.centre + race.highest];
         // Few, so the next one is found by looking at all.
         let cuts = shoulders
@@ -259,7 +216,7 @@ impl OneContact<'_> {
             .map(|z| z - dz)
             .chain(self.ends_on_race(|defect| defect.in_reach(&toward)))
             .chain(self.ends_on_ball())
-            .chain(self.crossings())
+            .chain(self.facing.crossings())
             .filter_map(|zeta| line.u(zeta));
         let mut low = line.low;
         while low < line.high {
@@ -274,10 +231,10 @@ impl OneContact<'_> {
     }
 
     fn piece<S: Sink + ?Sized>(&self, line: &Line, piece: ZonePiece, rules: &Rules, sink: &mut S) {
-        let open = (self.ring_open || self.ball_open)
+        let open = (self.facing.ring_open || self.facing.ball_open)
             && self
                 .node(line, f64::midpoint(piece.low, piece.high), 0.0)
-                .is_some_and(|node| self.is_open(&node));
+                .is_some_and(|node| self.facing.is_open(&node));
         if !open {
             self.nodes(line, piece, rules, sink);
             return;
@@ -327,8 +284,9 @@ impl OneContact<'_> {
     /// Whether a zone goes on past the pole of the ball, ζ = R, and of the groove: that on the common tangent of whole surfaces,
     /// which has none. Friction takes such a node to lie at the pole.
     fn passes_poles(&self, line: &Line) -> bool {
-        let is_whole = self.surface.is_none() && !(self.ring_open || self.ball_open);
-        line.is_tangent() && is_whole && self.section.approach < DEEPEST * self.ball.radius
+        let is_whole =
+            self.facing.surface.is_none() && !(self.facing.ring_open || self.facing.ball_open);
+        line.is_tangent() && is_whole && self.facing.section.approach < DEEPEST * self.facing.radius
     }
 
     /// The node at u that stands for a stretch of u.
@@ -338,24 +296,26 @@ impl OneContact<'_> {
     }
 
     /// The node at ζ within the zone, for a length of 1.
-    pub(in crate::contact) fn node_of(&self, line: &Line, zeta: f64) -> Option<Node> {
+    fn node_of(&self, line: &Line, zeta: f64) -> Option<Node> {
         let u = line.u(zeta).filter(|u| (line.low..line.high).contains(u))?;
         self.node_at(line, zeta, u, 1.0)
     }
 
     fn node_at(&self, line: &Line, zeta: f64, u: f64, width: f64) -> Option<Node> {
-        let square = self.ball.radius * self.ball.radius - zeta * zeta;
+        let square = self.facing.radius * self.facing.radius - zeta * zeta;
         let goes_on = self.passes_poles(line);
         if square <= 0.0 && !goes_on {
             return None;
         }
-        let z = self.z + zeta;
-        let race = &self.race;
-        let groove = self.groove(z).or(goes_on.then_some(0.0))?;
+        let z = self.facing.z + zeta;
+        let race = &self.facing.race;
+        let groove = self.facing.groove(z).or(goes_on.then_some(0.0))?;
         let rho = square.max(0.0).sqrt();
         let depth = match line.along {
-            Along::Surface(_) => self.section.penetration(rho, groove),
-            Along::Tangent { curvature, .. } => self.section.approach - curvature * u * u / 2.0,
+            Along::Surface(_) => self.facing.section.penetration(rho, groove),
+            Along::Tangent { curvature, .. } => {
+                self.facing.section.approach - curvature * u * u / 2.0
+            }
         };
         Some(Node {
             zeta,

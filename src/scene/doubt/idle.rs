@@ -219,7 +219,7 @@ fn balls(scene: &Scene, found: &mut Vec<Doubt>) {
         .filter(|(_, of)| of.on == Surface::Ball)
     {
         let angle = scene.rows[defect.row].contact_angle;
-        if (is_pushed || angle > ANGULAR) && defect.width.largest() > 0.0 {
+        if (is_pushed || angle > ANGULAR) && defect.damage.width() > 0.0 {
             let value = if angle > ANGULAR {
                 format!("ball, contact angle {}°", number(angle.to_degrees()))
             } else {

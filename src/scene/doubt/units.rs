@@ -19,7 +19,7 @@ const RATING: f64 = 14e6;
 
 pub(super) fn look(scene: &Scene, found: &mut Vec<Doubt>) {
     for (name, defect) in &scene.defects {
-        let width = defect.width.largest();
+        let width = defect.damage.width();
         if width > 0.0 && width < WIDTH {
             let usual = "less than a fiftieth of a millimetre: contacts are far wider, and it has hardly any effect; widths are in \
                          metres, width_mm in millimetres";

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::fmt::Display;
 
-use super::check::{below, finite, positive, within};
+use super::check::{below, finite, numbers, positive, within};
 use super::race::limits;
 use crate::base::error::{Error, Result};
 use crate::base::quantities;
@@ -11,60 +11,30 @@ use crate::scene::{Defect, Floor, Row, Scene, Surface, Width};
 
 pub(super) fn defect(scene: &Scene, path: &str, defect: &Defect) -> Result<()> {
     let at = |field: &str| format!("{path}.{field}");
+    let damage = &defect.damage;
     let row = scene.row_index(path, defect.row)?;
-    let radius = row.ball_diameter / 2.0;
     within(&at("angle"), defect.angle, -1e3..=1e3, "rad")?;
-    if defect.is_steep() {
-        between_walls(path, defect)?;
-    } else if defect.is_pit() {
-        pit(scene, path, row, defect)?;
-    } else {
-        positive(&at("edge_radius"), defect.edge_radius, "m")?;
+    if damage.is_small() {
+        small(scene, path, row, defect)?;
+    } else if let Some(length) = damage.length() {
+        positive(&at("length"), length, "m")?;
     }
-    if defect.is_cap() {
-        only_what_a_cap_has(path, defect)?;
-    } else if !defect.is_pit() {
-        positive(&at("length"), defect.length, "m")?;
+    if let Some(radius) = damage.edge_radius() {
+        positive(&at("edge_radius"), radius, "m")?;
     }
-    width(&at("width"), &defect.width)?;
+    if damage.is_of_balls() && defect.on != Surface::Ball {
+        let allowed = "absent for a defect on a race";
+        return Err(Error::scene(at("shape"), damage.word(), allowed));
+    }
+    width(&at("width"), &damage.width_along())?;
+    numbers(path, damage.numbers())?;
     if let Some(offset) = defect.axial_offset.number() {
         finite(&at("axial_offset"), offset)?;
     }
-    match (defect.on, defect.ball) {
-        (Surface::Ball, Some(ball)) if ball < row.ball_count => {
-            if defect.is_cap() {
-                cap(path, row, defect)?;
-            } else if defect.is_pit() {
-                on_ball(path, row, defect)?;
-            } else if scene.balls_turn() {
-                let allowed = r#""cap" or "pit" for a ball that spins freely: a patch has its length along the axis"#;
-                return Err(Error::scene(at("shape"), "absent", allowed));
-            } else {
-                on_ball(path, row, defect)?;
-            }
-        }
-        (Surface::Ball, ball) => {
-            let given = ball.map_or_else(|| "absent".to_owned(), |b| b.to_string());
-            return Err(Error::scene(
-                at("ball"),
-                given,
-                format!(
-                    "a ball from 0 to {}, since the defect is on a ball",
-                    row.ball_count - 1
-                ),
-            ));
-        }
-        (_, Some(ball)) => {
-            return Err(Error::scene(
-                at("ball"),
-                ball,
-                "absent for a defect on a race",
-            ));
-        }
-        (surface, None) => on_race(path, row, defect, surface == Surface::OuterRace)?,
-    }
-    if let Some(Floor { depth, elements }) = &defect.floor {
-        within(&at("floor.depth"), *depth, 0.0..=radius / 2.0, "m")?;
+    surface(scene, path, row, defect)?;
+    if let Some(Floor { depth, elements }) = damage.floor() {
+        let most = row.ball_diameter / 4.0;
+        within(&at("floor.depth"), *depth, 0.0..=most, "m")?;
         if !(1..=1000).contains(elements) {
             return Err(Error::scene(at("floor.elements"), elements, "1 to 1000"));
         }
@@ -72,44 +42,50 @@ pub(super) fn defect(scene: &Scene, path: &str, defect: &Defect) -> Result<()> {
     Ok(())
 }
 
-/// A defect with walls is a patch of one width, whose fault circles follow from the walls.
-fn between_walls(path: &str, defect: &Defect) -> Result<()> {
-    let refuse = |field: &str, value: &dyn Display, allowed: &str| {
-        Err(Error::scene(format!("{path}.{field}"), value, allowed))
-    };
-    if defect.shape.is_some() {
-        return refuse("walls", &"steep", "absent for a cap or a pit");
-    }
-    if defect.edge_radius != 0.0 {
-        let allowed = "absent with steep walls, from which it follows";
-        return refuse("edge_radius", &defect.edge_radius, allowed);
-    }
-    match &defect.width {
-        Width::Constant(_) => Ok(()),
-        Width::Profile(_) => refuse("width", &"a profile", "one number with steep walls"),
+/// Where a defect lies: on a ball of its row that it can lie on, or within a race.
+fn surface(scene: &Scene, path: &str, row: &Row, defect: &Defect) -> Result<()> {
+    let at = |field: &str| format!("{path}.{field}");
+    match (defect.on, defect.ball) {
+        (Surface::Ball, Some(ball)) if ball < row.ball_count => {
+            if scene.balls_turn() && defect.damage.is_patch() {
+                let allowed = r#""cap", "pit" or "dent" for a ball that spins freely: a patch has its length along the axis"#;
+                Err(Error::scene(at("shape"), "absent", allowed))
+            } else if defect.damage.is_of_balls() {
+                cap(path, row, defect)
+            } else {
+                on_ball(path, row, defect)
+            }
+        }
+        (Surface::Ball, ball) => {
+            let given = ball.map_or_else(|| "absent".to_owned(), |b| b.to_string());
+            Err(Error::scene(
+                at("ball"),
+                given,
+                format!(
+                    "a ball from 0 to {}, since the defect is on a ball",
+                    row.ball_count - 1
+                ),
+            ))
+        }
+        (_, Some(ball)) => Err(Error::scene(
+            at("ball"),
+            ball,
+            "absent for a defect on a race",
+        )),
+        (surface, None) => on_race(path, row, defect, surface == Surface::OuterRace),
     }
 }
 
-/// A pit has a width and perhaps a length, lies in a plain groove, and overlaps no other defect.
-fn pit(scene: &Scene, path: &str, row: &Row, defect: &Defect) -> Result<()> {
+/// What is smaller than its contact lies in a plain groove, and overlaps no other defect.
+fn small(scene: &Scene, path: &str, row: &Row, defect: &Defect) -> Result<()> {
     let refuse = |field: &str, value: &dyn Display, allowed: &str| {
         Err(Error::scene(format!("{path}.{field}"), value, allowed))
     };
-    within(&format!("{path}.length"), defect.length, 0.0..=1.0, "m")?;
-    if defect.edge_radius != 0.0 {
-        let allowed = "absent for a pit, whose edge is sharp";
-        return refuse("edge_radius", &defect.edge_radius, allowed);
-    }
-    if defect.floor.is_some() {
-        let allowed = "absent for a pit, whose floor no contact meets";
-        return refuse("floor", &"given", allowed);
-    }
-    if matches!(defect.width, Width::Profile(_)) {
-        return refuse("width", &"a profile", "one number for a pit");
-    }
+    let length = defect.damage.length().unwrap_or(0.0);
+    within(&format!("{path}.length"), length, 0.0..=1.0, "m")?;
     if !row.has_plain_grooves() {
         let allowed = "absent in rows with race profiles, gothic arches or rounded shoulders";
-        return refuse("shape", &"pit", allowed);
+        return refuse("shape", &defect.damage.word(), allowed);
     }
     let others = scene
         .defects
@@ -140,37 +116,22 @@ fn overlaps(row: &Row, one: &Defect, other: &Defect) -> bool {
         (None, None) => 0.0,
         _ => f64::INFINITY,
     };
+    let [one_size, other_size] = [one, other].map(|defect| defect.damage.footprint());
     body(one) == body(other)
-        && apart < f64::midpoint(one.width.largest(), other.width.largest())
-        && across < f64::midpoint(one.extent(), other.extent())
-}
-
-/// A cap is on a ball, and its size is one width.
-fn only_what_a_cap_has(path: &str, defect: &Defect) -> Result<()> {
-    let refuse = |field: &str, value: &dyn Display, allowed: &str| {
-        Err(Error::scene(format!("{path}.{field}"), value, allowed))
-    };
-    if defect.on != Surface::Ball {
-        return refuse("shape", &"cap", "absent for a defect on a race");
-    }
-    if defect.length != 0.0 {
-        let allowed = "absent for a cap, which is as long as it is wide";
-        return refuse("length", &defect.length, allowed);
-    }
-    match &defect.width {
-        Width::Constant(_) => Ok(()),
-        Width::Profile(_) => refuse("width", &"a profile", "one number for a cap"),
-    }
+        && apart < f64::midpoint(one_size[0], other_size[0])
+        && across < f64::midpoint(one_size[1], other_size[1])
 }
 
 fn cap(path: &str, row: &Row, defect: &Defect) -> Result<()> {
     let at = |field: &str| format!("{path}.{field}");
-    let (radius, width) = (row.ball_diameter / 2.0, defect.width.largest());
+    let (radius, width) = (row.ball_diameter / 2.0, defect.damage.width());
     // Then its rim passes a pole at more than 60 degrees from where contacts run.
     below(&at("width"), width, radius, "the ball's radius")?;
     // However the ball turns, the slices that contacts run in are larger.
-    let (edge, half) = (defect.edge_radius, radius / 2.0);
-    below(&at("edge_radius"), edge, half, "half the ball's radius")?;
+    if let Some(edge) = defect.damage.edge_radius() {
+        let half = radius / 2.0;
+        below(&at("edge_radius"), edge, half, "half the ball's radius")?;
+    }
     let offset = defect.axial_offset.number().unwrap_or(0.0);
     let allowed = "a place on the ball, in size below its radius";
     if offset.abs() < radius {
@@ -228,25 +189,24 @@ fn on_ball(path: &str, row: &Row, defect: &Defect) -> Result<()> {
         radius,
         "the ball's radius in size",
     )?;
-    let reach = offset.abs() + defect.length / 2.0;
+    let length = defect.damage.length().unwrap_or(0.0);
+    let reach = offset.abs() + length / 2.0;
     if reach >= radius {
         let allowed = format!(
             "|axial_offset| + length/2 below the ball's radius, {}",
             quantities::length(radius)
         );
-        return Err(Error::scene(at("length"), defect.length, allowed));
+        return Err(Error::scene(at("length"), length, allowed));
     }
     // Radius of the ball's smallest section that carries the defect.
     let section = (radius * radius - reach * reach).sqrt();
-    below(
-        &at("edge_radius"),
-        defect.edge_radius,
-        section,
-        "the radius of the ball's section where the defect ends",
-    )?;
+    if let Some(edge) = defect.damage.edge_radius() {
+        let what = "the radius of the ball's section where the defect ends";
+        below(&at("edge_radius"), edge, section, what)?;
+    }
     below(
         &at("width"),
-        defect.width.largest(),
+        defect.damage.width(),
         PI * section,
         "half the circumference of the ball's section where the defect ends",
     )?;
@@ -268,25 +228,23 @@ fn on_race(path: &str, row: &Row, defect: &Defect, outer: bool) -> Result<()> {
             let allowed = format!("a place on the race: {ends}");
             return Err(Error::scene(at("axial_offset"), offset, allowed));
         }
-        let half = defect.length / 2.0;
+        let length = defect.damage.length().unwrap_or(0.0);
+        let half = length / 2.0;
         if offset - half <= first || offset + half >= last {
             let allowed = format!(
                 "a defect within the race: its middle is at {}, {ends}",
                 quantities::length(offset)
             );
-            return Err(Error::scene(at("length"), defect.length, allowed));
+            return Err(Error::scene(at("length"), length, allowed));
         }
     }
-    below(
-        &at("edge_radius"),
-        defect.edge_radius,
-        radius,
-        "the ball's radius",
-    )?;
+    if let Some(edge) = defect.damage.edge_radius() {
+        below(&at("edge_radius"), edge, radius, "the ball's radius")?;
+    }
     let race = (row.pitch_diameter - row.ball_diameter) / 2.0;
     below(
         &at("width"),
-        defect.width.largest(),
+        defect.damage.width(),
         PI * race / 2.0,
         "a quarter of the race's circumference",
     )?;

@@ -3,7 +3,6 @@
 use nalgebra::Vector3;
 
 use super::SurfaceDefect;
-use super::cap::Cap;
 use crate::contact::{Motion, V2, cross, wrapped};
 
 /// A direction in which a ball or a race is met, as its defects are asked about it.
@@ -36,15 +35,9 @@ impl<'a> Toward<'a> {
         }
     }
 
-    /// A ball's defect that is a cap, and the direction e of that.
-    pub(super) fn pole(&self, defect: &SurfaceDefect) -> Option<(Cap, Vector3<f64>)> {
+    /// The direction e of the middle of a ball's defect that turns with the ball in every direction.
+    pub(super) fn pole(&self, defect: &SurfaceDefect) -> Option<Vector3<f64>> {
         defect.pole(self.ball?)
-    }
-
-    /// The direction e of a ball's defect that is round: a cap or a pit.
-    fn middle(&self, defect: &SurfaceDefect) -> Option<Vector3<f64>> {
-        let cap = self.pole(defect).map(|(_, e)| e);
-        cap.or_else(|| defect.pit_pole(self.ball?))
     }
 
     /// The angle from here to a direction e of the ball \[rad\].
@@ -54,7 +47,7 @@ impl<'a> Toward<'a> {
 
     /// How far it is from a defect's middle \[rad\].
     pub fn aside(&self, defect: &SurfaceDefect) -> f64 {
-        match self.middle(defect) {
+        match self.pole(defect) {
             None => wrapped(self.angle - defect.angle),
             Some(e) => -self.aside_of(&e),
         }
@@ -62,16 +55,12 @@ impl<'a> Toward<'a> {
 
     /// Half of the angle over which a defect may be met \[rad\].
     pub fn half(&self, defect: &SurfaceDefect) -> f64 {
-        match (self.pole(defect), &defect.pit) {
-            (Some((cap, e)), _) => cap.widest(&e),
-            (None, Some(pit)) => pit.span,
-            (None, None) => defect.reach / super::MARGIN,
-        }
+        defect.kind.get().half(defect, self.pole(defect).as_ref())
     }
 
     /// How fast a defect turns about the ring's axis \[rad/s\], of a body with this angular speed about it.
     pub fn turning(&self, defect: &SurfaceDefect, omega: f64) -> f64 {
-        match (self.middle(defect), self.ball) {
+        match (self.pole(defect), self.ball) {
             (Some(e), Some(ball)) => omega - ball.across.dot(&e.xy()) * e.z / e.xy().norm_squared(),
             _ => omega,
         }

@@ -37,13 +37,22 @@
 
 use super::depth::Sloped;
 use super::elements::ElementPair;
-use crate::contact::scalar::slices::{BESIDE, Owner};
-use crate::contact::scalar::{Line, Node, OneContact};
+use super::facing::{Facing, Node};
 use crate::contact::{Aside, Sink, V2, turned};
 
-impl OneContact<'_> {
+/// To which body an axial end of a defect belongs.
+#[derive(Clone, Copy, PartialEq)]
+pub(in crate::contact) enum Owner {
+    Ring,
+    Ball,
+}
+
+/// How far beside an end its two sides are looked at \[m\]: rounding only.
+pub(in crate::contact) const BESIDE: f64 = 1e-12;
+
+impl Facing<'_> {
     /// What the meridional direction and the axial place have to say to an element's energy under the Hertz law.
-    pub(super) fn tilt<S: Sink + ?Sized>(
+    pub(in crate::contact) fn tilt<S: Sink + ?Sized>(
         &self,
         node: &Node,
         met: &ElementPair<Sloped>,
@@ -52,7 +61,7 @@ impl OneContact<'_> {
         let Some((cos, sin)) = self.common() else {
             return;
         };
-        let lever = self.ball.radius - node.zeta * sin;
+        let lever = self.radius - node.zeta * sin;
         let (mut turning, mut shifting) = (0.0, 0.0);
         for (sign, drop) in met.terms() {
             let Sloped {
@@ -61,7 +70,7 @@ impl OneContact<'_> {
             } = drop;
             if value < f64::INFINITY {
                 let depth = node.depth - cos * value;
-                let force = sign * self.pair.law.elastic.force(depth, node.width);
+                let force = sign * self.law.elastic.force(depth, node.width);
                 turning += force * (sin * value - (by_z + by_zeta) * lever);
                 shifting -= force * cos * by_z;
             }
@@ -70,25 +79,25 @@ impl OneContact<'_> {
     }
 
     /// What the slope of the ball's texture makes of an elastic force.
-    pub(super) fn texture_force(&self, elastic: f64) -> Aside {
+    pub(in crate::contact) fn texture_force(&self, elastic: f64) -> Aside {
         let plane = turned(self.n) * (-elastic * self.swell.slope / self.distance);
         Aside::at(-self.apart, plane, 0.0)
     }
 
-    /// What the axial end of a defect at a place ζ adds.
-    pub(in crate::contact::scalar) fn end<S: Sink + ?Sized>(
+    /// What the axial end of a defect at a node's place adds.
+    pub(in crate::contact) fn end<S: Sink + ?Sized>(
         &self,
-        line: &Line,
-        zeta: f64,
+        node: &Node,
         owner: Owner,
         sink: &mut S,
     ) {
-        let Some(jump) = self.jump(line, zeta) else {
+        let Some(jump) = self.jump(node) else {
             return;
         };
+        let zeta = node.zeta;
         let aside = match (self.common(), owner) {
             (Some((cos, sin)), _) => {
-                let by_angle = (zeta * sin - self.ball.radius) / (cos * cos);
+                let by_angle = (zeta * sin - self.radius) / (cos * cos);
                 let by_z = if owner == Owner::Ring {
                     -1.0 / cos
                 } else {
@@ -104,14 +113,13 @@ impl OneContact<'_> {
 
     /// Whether ends of defects on the ring matter: not to the ISO law.
     pub(in crate::contact) fn feels_ring_ends(&self) -> bool {
-        self.pair.law.cut().is_flat()
+        self.law.cut().is_flat()
     }
 
     /// Energy per length on the side of lower ζ less that on the other; none where there is no contact or no change.
-    fn jump(&self, line: &Line, zeta: f64) -> Option<f64> {
-        let node = self.node_of(line, zeta)?;
+    fn jump(&self, node: &Node) -> Option<f64> {
         let reaches = node.depth > 0.0 && self.race.reaches(node.z);
-        let side = |beside: f64| self.energy(&Node { beside, ..node });
+        let side = |beside: f64| self.energy(&Node { beside, ..*node });
         let jump = side(-BESIDE) - side(BESIDE);
         (reaches && jump != 0.0).then_some(jump)
     }
@@ -124,7 +132,7 @@ impl OneContact<'_> {
             for (sign, drop) in met.terms() {
                 if drop < f64::INFINITY {
                     let depth = node.depth - share * drop;
-                    sum += sign * self.pair.law.elastic.energy(depth, node.width);
+                    sum += sign * self.law.elastic.energy(depth, node.width);
                 }
             }
         });
@@ -151,7 +159,3 @@ impl OneContact<'_> {
         Aside::at(V2::zeros(), plane, -by_z)
     }
 }
-
-/// The truth is the energy, differentiated numerically.
-#[cfg(test)]
-pub(super) mod tests;

@@ -2,14 +2,13 @@
 
 use nalgebra::{Rotation3, Vector3};
 
-use super::gradient::tests::{RADIUS, pair};
-use crate::contact::PittedContact;
+use super::gradient_tests::{RADIUS, pair};
 use crate::contact::hertz::Hertz;
 use crate::contact::{
-    Aside, BallSide, Damping, Motion, Pair, Sink, SurfaceDefect, Torus, Touch, Traction, V2,
-    Wrench, ZoneSlices,
+    Aside, BallSide, Bed, Damping, Motion, Pair, PittedContact, Sink, SurfaceDefect, Torus, Touch,
+    Traction, V2, Wrench, ZoneSlices,
 };
-use crate::scene::{Defect, Floor, Friction, Material, Surface, WidthProfile};
+use crate::scene::{Damage, Defect, Floor, Friction, Material, Surface, WidthProfile};
 
 /// What a contact does to its ball, and of it what normal forces and friction take out.
 #[derive(Default)]
@@ -45,10 +44,14 @@ impl Sink for ContactParts {
 
 /// A cap in the direction e, of a ball that has not turned.
 fn cap(e: &Vector3<f64>, width: f64, floor: Option<Floor>) -> BallSide {
-    let mut defect = Defect::cap(e.y.atan2(e.x), width, 0.3e-3);
-    defect.floor = floor;
+    let damage = Damage::Cap {
+        width,
+        edge_radius: 0.3e-3,
+        floor,
+    };
+    let defect = Defect::of(damage, Surface::Ball, e.y.atan2(e.x));
     BallSide {
-        defects: vec![SurfaceDefect::cap(&defect, RADIUS * e.z, RADIUS)],
+        defects: vec![SurfaceDefect::new(&defect, RADIUS * e.z, RADIUS)],
         ..BallSide::whole(RADIUS)
     }
 }
@@ -195,11 +198,9 @@ fn forces_and_moments_of_pits_are_the_gradient_of_the_energy() {
         let hertz = Hertz::new(sigma, 2.0 * RADIUS, 60e-3, 0.52, 0.3, &steel, &steel);
         let ball_with = |e: &Vector3<f64>| {
             let defect = Defect::pit(Surface::Ball, e.y.atan2(e.x), 0.3e-3);
-            let mut pit = SurfaceDefect::pit(
+            let mut pit = SurfaceDefect::within(
                 &defect,
-                RADIUS * e.z,
-                RADIUS,
-                [PittedContact::of(&hertz); 2],
+                &Bed::round(RADIUS * e.z, RADIUS, [PittedContact::of(&hertz); 2]),
             );
             pit.widen(0.4e-3);
             BallSide {

@@ -29,7 +29,7 @@ use crate::contact::hertz::Hertz;
 /// Strips.
 const STRIPS: usize = 8;
 /// Nodes and weights of Gauss and Legendre for the positive half of −1 … 1.
-const HALF: [(f64, f64); STRIPS / 2] = [
+pub(super) const HALF: [(f64, f64); STRIPS / 2] = [
     (0.183_434_642_495_649_8, 0.362_683_783_378_362),
     (0.525_532_409_916_329, 0.313_706_645_877_887_3),
     (0.796_666_477_413_626_7, 0.222_381_034_453_374_48),
@@ -37,7 +37,7 @@ const HALF: [(f64, f64); STRIPS / 2] = [
 ];
 
 /// Hertz's contact as a pit needs it.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct PittedContact {
     /// K \[N/m^{3/2}\].
     pub stiffness: f64,
@@ -45,6 +45,8 @@ pub(crate) struct PittedContact {
     pub curvatures: [f64; 2],
     /// p²/(δ E*) \[Pa/m\].
     pub pressure: f64,
+    /// E* \[Pa\].
+    pub modulus: f64,
 }
 
 impl PittedContact {
@@ -59,25 +61,38 @@ impl PittedContact {
             stiffness: hertz.stiffness,
             curvatures: [a, b].map(|half| 1.0 / (root * half * half)),
             pressure: pressure * pressure * root / modulus,
+            modulus,
         }
     }
 }
 
-/// V and its derivatives by δ, x₀ and y₀ \[J\], \[N\].
+/// An energy of a contact and its derivatives by δ, x₀ and y₀ \[J\], \[N\].
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(in crate::contact) struct Released {
+pub(in crate::contact) struct EnergyAt {
     pub energy: f64,
     pub by_depth: f64,
     pub by_x: f64,
     pub by_y: f64,
 }
 
-/// What pits make of a contact's elastic forces.
+/// What a damage does to the energy of a contact.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(in crate::contact) struct Released {
+    /// V.
+    pub lost: EnergyAt,
+    /// R, of what stands above the surface.
+    pub gained: EnergyAt,
+}
+
+/// What damages smaller than a contact make of its elastic forces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::contact) struct Yield {
-    /// g, of the forces, and e^{−X}, of the energy.
+    /// Of the forces, g and what is gained.
     pub share: f64,
+    /// Of the energy, e^{−X} and what is gained.
     pub energy: f64,
+    /// e^{−X}.
+    pub left: f64,
     /// X.
     pub exponent: f64,
 }
@@ -87,6 +102,7 @@ impl Default for Yield {
         Self {
             share: 1.0,
             energy: 1.0,
+            left: 1.0,
             exponent: 0.0,
         }
     }
@@ -104,12 +120,14 @@ impl Yield {
     /// Of a contact that has so much energy without its pits, and what these release (15.4).
     pub fn of(contact: &PittedContact, energy: f64, all: &[Released]) -> Self {
         let (_, force) = contact.pressed(energy);
-        let exponent = all.iter().map(|of| of.energy).sum::<f64>() / energy;
-        let lost = all.iter().map(|of| of.by_depth).sum::<f64>() / force;
+        let sum = |of: fn(&Released) -> f64| all.iter().map(of).sum::<f64>();
+        let exponent = sum(|of| of.lost.energy) / energy;
+        let lost = sum(|of| of.lost.by_depth) / force;
         let left = (-exponent).exp();
         Self {
-            share: left * (1.0 + exponent - lost),
-            energy: left,
+            share: left * (1.0 + exponent - lost) + sum(|of| of.gained.by_depth) / force,
+            energy: left + sum(|of| of.gained.energy) / energy,
+            left,
             exponent,
         }
     }
@@ -141,24 +159,30 @@ impl Hole {
         Self { half, opening }
     }
 
+    /// Energy that closes the hole if it is so deep in its middle, half an ellipsoid \[m\]: the surfaces bulge down to its floor and no further.
+    pub fn filled(&self, of: &PittedContact, depth: f64) -> f64 {
+        let area = 2.0 * PI / 3.0 * self.half[0] * self.half[1];
+        area * depth * depth * of.modulus / (4.0 * self.opening)
+    }
+
+    /// Pressure under which the surfaces bulge so far into it \[Pa\].
+    pub fn pressure(&self, of: &PittedContact, depth: f64) -> f64 {
+        depth * of.modulus / (2.0 * self.opening)
+    }
+
     /// c_x.
     pub fn across(&self) -> f64 {
         self.half[0]
     }
 
-    /// c_y.
-    pub fn along(&self) -> f64 {
-        self.half[1]
-    }
-
     /// V at an approach and a place.
-    pub fn released(&self, of: &PittedContact, depth: f64, [x0, y0]: [f64; 2]) -> Released {
+    pub fn released(&self, of: &PittedContact, depth: f64, [x0, y0]: [f64; 2]) -> EnergyAt {
         let [c_x, c_y] = self.half;
         let reach = (depth / of.curvatures[0]).sqrt();
         let (low, high) = ((x0 - c_x).max(-reach), (x0 + c_x).min(reach));
         // Not so for a depth that is no number, either.
         if low.partial_cmp(&high) != Some(Ordering::Less) {
-            return Released::default();
+            return EnergyAt::default();
         }
         // How the ends move with δ and with x₀.
         let grows = 0.5 * reach / depth;
@@ -173,7 +197,7 @@ impl Hole {
             [0.0, 1.0]
         };
         let (middle, half) = (f64::midpoint(low, high), 0.5 * (high - low));
-        let mut sum = Released::default();
+        let mut sum = EnergyAt::default();
         for (node, weight) in HALF.into_iter().flat_map(|(x, w)| [(-x, w), (x, w)]) {
             let (sin, cos) = (FRAC_PI_2 * node).sin_cos();
             let weight = FRAC_PI_2 * weight * cos;
@@ -191,7 +215,7 @@ impl Hole {
             sum.by_y += weight * half * strip.by_y;
         }
         let scale = self.opening * of.pressure * c_y;
-        Released {
+        EnergyAt {
             energy: scale * sum.energy,
             by_depth: scale * sum.by_depth,
             by_x: scale * sum.by_x,
@@ -256,12 +280,19 @@ mod tests {
         PittedContact::of(&hertz)
     }
 
+    fn lost(lost: EnergyAt) -> Released {
+        Released {
+            lost,
+            ..Released::default()
+        }
+    }
+
     /// Force of a pitted contact at an approach \[N\], and X.
     fn pressed(of: &PittedContact, hole: &Hole, depth: f64, at: [f64; 2]) -> (f64, f64) {
         let found = Yield::of(
             of,
             0.4 * of.stiffness * depth.powf(2.5),
-            &[hole.released(of, depth, at)],
+            &[lost(hole.released(of, depth, at))],
         );
         (of.stiffness * depth.powf(1.5) * found.share, found.exponent)
     }
@@ -340,7 +371,7 @@ mod tests {
         }
         assert_eq!(
             Hole::new([0.1e-3; 2]).released(&of, depth, [0.9e-3, 0.0]),
-            Released::default()
+            EnergyAt::default()
         );
     }
 

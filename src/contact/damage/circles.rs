@@ -1,14 +1,13 @@
 //! Fault circles of ring and ball against whatever stands opposite (model section 7).
 
+use super::arc::{Edge, WITH_RING_AXIS};
 use super::depth::Depth;
 use super::elements::{FeatureShape, RingElement, WaveSlope};
-use crate::contact::defect::Edge;
-use crate::contact::defect::WITH_RING_AXIS;
+use super::facing::{Facing, Node};
 use crate::contact::profile::Raise;
-use crate::contact::scalar::{Node, OneContact};
 use crate::contact::{V2, turned};
 
-impl OneContact<'_> {
+impl Facing<'_> {
     /// A fault circle of the ring against the smooth slice.
     pub(super) fn ring_circle<D: Depth>(
         &self,
@@ -16,7 +15,7 @@ impl OneContact<'_> {
         edge: &Edge,
         depth: f64,
     ) -> RingElement<D> {
-        let raise = self.pair.waves.raise(self.on_ring + edge.angle);
+        let raise = self.race_side.waves.raise(self.on_ring + edge.angle);
         let sigma = self.race.sigma;
         let reach = node.torus_radius + raise.height + sigma * (edge.radius + depth);
         let u = rotated(self.n, edge.angle);
@@ -87,7 +86,7 @@ impl OneContact<'_> {
         let from_ring = self.apart + arm;
         let distance = from_ring.norm();
         let m = from_ring / distance;
-        let waves = &self.pair.waves;
+        let waves = self.race_side.waves;
         let raise = if waves.is_round() {
             Raise::default()
         } else {

@@ -1,9 +1,8 @@
 //! The forces of a slice: of every element of the ring against every element of the ball that it touches.
 
-use super::depth::{Depth, Sloped};
-use super::elements::{ElementPair, RingElement, WaveSlope};
+use super::OneContact;
+use crate::contact::damage::{Depth, ElementPair, Node, RingElement, Sloped, WaveSlope};
 use crate::contact::kernel::{self, ElementState};
-use crate::contact::scalar::{Node, OneContact};
 use crate::contact::{Aside, Sink, Touch, V2, cross, turned};
 
 impl OneContact<'_> {
@@ -12,7 +11,7 @@ impl OneContact<'_> {
         if node.depth <= 0.0 {
             return;
         }
-        if !self.race.reaches(node.z) {
+        if !self.facing.race.reaches(node.z) {
             // Beyond the cusp of a gothic arch is the other flank.
             if !self.pair.is_beyond_cusp(node.z) {
                 sink.truncated();
@@ -20,16 +19,18 @@ impl OneContact<'_> {
             return;
         }
         // Forces along normals are all there is to the ISO law, and where surfaces are whole.
-        if self.common().is_some() && (self.ring_open || self.ball_open) {
-            self.element_pairs(node, &mut |met: &ElementPair<Sloped>| {
-                if self.force(node, met, sink) {
-                    self.tilt(node, met, sink);
-                }
-            });
+        if self.facing.common().is_some() && (self.facing.ring_open || self.facing.ball_open) {
+            self.facing
+                .element_pairs(node, &mut |met: &ElementPair<Sloped>| {
+                    if self.force(node, met, sink) {
+                        self.facing.tilt(node, met, sink);
+                    }
+                });
         } else {
-            self.element_pairs(node, &mut |met: &ElementPair<f64>| {
-                self.force(node, met, sink);
-            });
+            self.facing
+                .element_pairs(node, &mut |met: &ElementPair<f64>| {
+                    self.force(node, met, sink);
+                });
         }
     }
 
@@ -41,7 +42,7 @@ impl OneContact<'_> {
         sink: &mut S,
     ) -> bool {
         let pair = self.pair;
-        let share = self.drop_share();
+        let share = self.facing.drop_share();
         let (feature, tan) = (&met.feature, met.tan);
         let split = |law: &dyn Fn(f64) -> f64| {
             let at = |(sign, drop): (f64, D)| {
@@ -53,14 +54,15 @@ impl OneContact<'_> {
             };
             met.terms().into_iter().map(at).sum::<f64>()
         };
-        let elastic = self.yields.share * split(&|depth| pair.law.elastic.force(depth, node.width));
+        let elastic =
+            self.facing.yields.share * split(&|depth| pair.law.elastic.force(depth, node.width));
         if elastic <= 0.0 {
             return false;
         }
         let depth = node.depth - share * (feature.drops.0.value() + met.ball_drops.0.value());
         let n_e = feature.n_e;
         let mut state = self.state(node, feature, tan, (elastic, depth));
-        let force = if self.b.across == V2::zeros() {
+        let force = if self.facing.b.across == V2::zeros() {
             kernel::force::<_, false, false, false, false>(&pair.law, &state, 0.0)
         } else {
             let across = self.turning_across(node, feature, &mut state);
@@ -78,7 +80,8 @@ impl OneContact<'_> {
             elastic,
             normal: force.normal,
             energy: if sink.asks_energy() {
-                self.yields.energy * split(&|depth| pair.law.elastic.energy(depth, node.width))
+                self.facing.yields.energy
+                    * split(&|depth| pair.law.elastic.energy(depth, node.width))
             } else {
                 0.0
             },
@@ -89,7 +92,7 @@ impl OneContact<'_> {
             friction_z: axial,
             slip: squared.sqrt(),
             friction_power: force.factor * force.damped.max(0.0) * squared,
-            arm_ball: feature.arm_ring - self.apart,
+            arm_ball: feature.arm_ring - self.facing.apart,
             swing: feature.swing,
             pull: force.damped < 0.0,
         };
@@ -104,8 +107,8 @@ impl OneContact<'_> {
                 across: V2::zeros(),
             });
         }
-        if !self.ball.waves.is_round() {
-            sink.aside(&self.texture_force(elastic));
+        if !self.facing.ball_side.waves.is_round() {
+            sink.aside(&self.facing.texture_force(elastic));
         }
         true
     }
@@ -119,25 +122,25 @@ impl OneContact<'_> {
         tan: f64,
         (elastic, depth): (f64, f64),
     ) -> ElementState<f64> {
-        let (b, r, n_e) = (self.b, self.r, feature.n_e);
-        let arm_ball = feature.arm_ring - self.apart;
+        let (b, r, n_e) = (self.facing.b, self.facing.r, feature.n_e);
+        let arm_ball = feature.arm_ring - self.facing.apart;
         let v_p = b.velocity - r.velocity + turned(arm_ball) * b.omega
             - turned(feature.arm_ring) * r.omega;
-        let radius = self.ball.radius;
+        let radius = self.facing.radius;
         // Along the common tangent, or α of the slice or of the gap's gradient at a ball's fault circle.
-        let slope = if let Some((cos, sin)) = self.common() {
+        let slope = if let Some((cos, sin)) = self.facing.common() {
             (sin, cos)
         } else {
             let cos = 1.0 / (1.0 + tan * tan).sqrt();
             (tan * cos, cos)
         };
         let (load, arm) = if self.pair.reads_rolling() {
-            let arm = feature.arm_ring.dot(&self.n) - self.distance;
+            let arm = feature.arm_ring.dot(&self.facing.n) - self.facing.distance;
             (elastic / node.width, arm)
         } else {
             (0.0, 0.0)
         };
-        let share = self.common().unwrap_or((1.0, tan));
+        let share = self.facing.common().unwrap_or((1.0, tan));
         let velocity = [v_p.dot(&n_e), v_p.dot(&turned(n_e)), b.vz - r.vz];
         ElementState {
             elastic,
@@ -149,7 +152,7 @@ impl OneContact<'_> {
             depth,
             arm,
             rolling: self.rolling,
-            radii: [radius, self.race.r],
+            radii: [radius, self.facing.race.r],
             oil: self.oil,
         }
     }
@@ -164,8 +167,8 @@ impl OneContact<'_> {
         feature: &RingElement<D>,
         state: &mut ElementState<f64>,
     ) -> f64 {
-        let (n_e, across) = (feature.n_e, self.b.across);
-        let arm = feature.arm_ring - self.apart;
+        let (n_e, across) = (feature.n_e, self.facing.b.across);
+        let arm = feature.arm_ring - self.facing.apart;
         let w = [across.dot(&n_e), across.dot(&turned(n_e))];
         let place = (arm.dot(&n_e), node.zeta);
         let [along, meridional] = kernel::slip_of_turning::<_, false>(w, place, state.slope);

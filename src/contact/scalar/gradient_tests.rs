@@ -1,4 +1,5 @@
-use crate::contact::PittedContact;
+//! Analytic: forces over defects against the elastic energy, differentiated numerically.
+
 use std::f64::consts::PI;
 
 use nalgebra::Vector3;
@@ -7,12 +8,12 @@ use super::*;
 use crate::contact::hertz::Hertz;
 use crate::contact::iso16281::Iso16281;
 use crate::contact::{
-    BallSide, Elastic, Law, Motion, Pair, Rules, Shape, SurfaceDefect, Torus, Touch, Waves,
-    WrenchSum, ZoneSlices,
+    Aside, BallSide, Bed, Elastic, Law, Motion, Pair, PittedContact, Rules, Shape, SurfaceDefect,
+    Torus, Touch, Waves, WrenchSum, ZoneSlices,
 };
-use crate::scene::{Defect, Floor, Material, Surface, Waviness, Width, WidthProfile};
+use crate::scene::{Damage, Defect, Floor, Material, Surface, Waviness, Width, WidthProfile};
 
-pub(in crate::contact::scalar::over_defects) const RADIUS: f64 = 6e-3;
+pub(super) const RADIUS: f64 = 6e-3;
 
 /// Energy, and what the ball gets.
 #[derive(Default)]
@@ -37,12 +38,7 @@ impl Sink for ElasticParts {
 }
 
 /// A race whose groove is centred at 0.1 mm, without damping and friction, and a defect of it.
-pub(in crate::contact::scalar::over_defects) fn pair(
-    sigma: f64,
-    is_hertz: bool,
-    defect: Option<&Defect>,
-    waves: u32,
-) -> Pair {
+pub(super) fn pair(sigma: f64, is_hertz: bool, defect: Option<&Defect>, waves: u32) -> Pair {
     let steel = Material::default();
     let elastic = if is_hertz {
         let law = Hertz::new(sigma, 2.0 * RADIUS, 60e-3, 0.52, 0.3, &steel, &steel);
@@ -121,7 +117,6 @@ fn wave_of_ball(order: u32) -> Waves {
 }
 
 fn defects() -> Vec<(&'static str, Defect)> {
-    let plain = Defect::new(Surface::OuterRace, 0.0, 20e-3, 0.7e-3, 0.3e-3).at_offset(0.0);
     let varying = WidthProfile {
         positions: vec![-6e-3, 6e-3],
         widths: vec![0.5e-3, 0.9e-3],
@@ -130,26 +125,22 @@ fn defects() -> Vec<(&'static str, Defect)> {
         depth: 3e-6,
         elements: 3,
     };
-    let of = |change: &dyn Fn(&mut Defect)| {
-        let mut defect = plain.clone();
-        change(&mut defect);
-        defect
+    let of = |length: f64, width: Width, floor: Option<Floor>| {
+        let damage = Damage::Patch {
+            length,
+            width,
+            edge_radius: 0.3e-3,
+            floor,
+        };
+        Defect::of(damage, Surface::OuterRace, 0.0).at_offset(0.0)
     };
+    let width = Width::Constant(0.7e-3);
     vec![
-        ("edges", of(&|d| d.length = 4.9e-3)),
-        (
-            "narrow",
-            of(&|d| (d.length, d.width) = (4.9e-3, 0.1e-3.into())),
-        ),
-        ("ends", of(&|d| d.length = 0.5e-3)),
-        (
-            "varying",
-            of(&|d| (d.length, d.width) = (4.9e-3, Width::Profile(varying.clone()))),
-        ),
-        (
-            "floor",
-            of(&|d| (d.length, d.floor) = (0.5e-3, Some(floor.clone()))),
-        ),
+        ("edges", of(4.9e-3, width.clone(), None)),
+        ("narrow", of(4.9e-3, 0.1e-3.into(), None)),
+        ("ends", of(0.5e-3, width.clone(), None)),
+        ("varying", of(4.9e-3, Width::Profile(varying), None)),
+        ("floor", of(0.5e-3, width, Some(floor))),
     ]
 }
 
@@ -192,9 +183,40 @@ fn moved(defect: &Defect, place: &[f64; 5], on_ball: bool) -> Defect {
     }
 }
 
-/// Pits of race and ball at once, beside waves of both, at contacts steep and light.
 #[test]
 fn forces_of_pits_are_the_gradient_of_the_energy() {
+    forces_of_small_damages([
+        Damage::Pit {
+            width: 0.24e-3,
+            length: Some(0.3e-3),
+        },
+        Damage::Pit {
+            width: 0.2e-3,
+            length: None,
+        },
+    ]);
+}
+
+#[test]
+fn forces_of_dents_are_the_gradient_of_the_energy() {
+    forces_of_small_damages([
+        Damage::Dent {
+            width: 0.24e-3,
+            length: Some(0.3e-3),
+            depth: 9e-6,
+            rim_height: 0.5e-6,
+        },
+        Damage::Dent {
+            width: 0.2e-3,
+            length: None,
+            depth: 0.8e-6,
+            rim_height: 0.5e-6,
+        },
+    ]);
+}
+
+/// Of race and ball at once, beside waves of both, at contacts steep and light.
+fn forces_of_small_damages([of_race, of_ball]: [Damage; 2]) {
     let mut worst: f64 = 0.0;
     for is_hertz in [true, false] {
         for sigma in [1.0, -1.0] {
@@ -204,15 +226,14 @@ fn forces_of_pits_are_the_gradient_of_the_energy() {
             let contacts = [PittedContact::of(&hertz); 2];
             for (k, place) in places(sigma, false).into_iter().enumerate() {
                 let (aside, across) = ([0.02e-3, -0.05e-3, 0.0, 0.07e-3][k], 0.1e-3);
-                let mut on_race = Defect::pit(Surface::OuterRace, 0.0, 0.24e-3);
-                on_race.length = 0.3e-3;
                 let l = 6.24e-3 - RADIUS + 15e-6;
                 let angle = ((place[2] - 0.1e-3) / l).asin();
                 let direction = place[1].atan2(place[0]);
-                on_race.angle = direction - place[4] + aside / 30e-3;
+                let turned = direction - place[4] + aside / 30e-3;
+                let on_race = Defect::of(of_race.clone(), Surface::OuterRace, turned);
                 let z = 0.1e-3 + 6.24e-3 * angle.sin() + across;
                 let radius = plain.race.radius(z).unwrap();
-                let mut pitted = SurfaceDefect::pit(&on_race, z, radius, contacts);
+                let mut pitted = SurfaceDefect::within(&on_race, &Bed::round(z, radius, contacts));
                 pitted.widen(0.3e-3);
                 let facing = if sigma > 0.0 {
                     direction
@@ -220,9 +241,9 @@ fn forces_of_pits_are_the_gradient_of_the_energy() {
                     direction + PI
                 };
                 let turned = facing - place[3] - aside / RADIUS;
-                let on_ball = Defect::pit(Surface::Ball, turned, 0.2e-3);
-                let mut pit =
-                    SurfaceDefect::pit(&on_ball, RADIUS * angle.sin() - across, RADIUS, contacts);
+                let on_ball = Defect::of(of_ball.clone(), Surface::Ball, turned);
+                let bed = Bed::round(RADIUS * angle.sin() - across, RADIUS, contacts);
+                let mut pit = SurfaceDefect::within(&on_ball, &bed);
                 pit.widen(0.3e-3);
                 let mut race = pair(sigma, is_hertz, None, 30);
                 race.defects = vec![pitted];

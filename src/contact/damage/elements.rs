@@ -17,14 +17,15 @@
 
 use nalgebra::Vector3;
 
+use super::arc::{Arc, Edge, WITH_RING_AXIS, absent, floors};
 use super::depth::Depth;
-use crate::contact::defect::{Arc, Edge, Toward, WITH_RING_AXIS, absent, floors};
-use crate::contact::scalar::{Node, OneContact};
+use super::facing::{Facing, Node};
+use super::toward::Toward;
 use crate::contact::{V2, turned};
 
 /// The ring's side of a feature.
 #[derive(Clone, Copy)]
-pub(super) enum FeatureShape {
+pub(in crate::contact) enum FeatureShape {
     Race,
     Circle {
         from_ring: V2,
@@ -36,33 +37,33 @@ pub(super) enum FeatureShape {
 
 /// The tangential force that the slope of the waves adds, over the force along n_e, and its arm from the ball's centre.
 #[derive(Clone, Copy, Default)]
-pub(super) struct WaveSlope {
-    pub(super) force: V2,
-    pub(super) arm: V2,
+pub(in crate::contact) struct WaveSlope {
+    pub force: V2,
+    pub arm: V2,
 }
 
 /// A surface of the ring that a slice can meet.
 #[derive(Clone, Copy)]
-pub(super) struct RingElement<D> {
-    pub(super) shape: FeatureShape,
+pub(in crate::contact) struct RingElement<D> {
+    pub shape: FeatureShape,
     /// Unit vector out of the ball.
-    pub(super) n_e: V2,
+    pub n_e: V2,
     /// Penetration of the smooth ball against it, by geometry.
-    pub(super) s: D,
-    pub(super) drops: (D, D),
-    pub(super) arm_ring: V2,
-    pub(super) wave_slope: WaveSlope,
+    pub s: D,
+    pub drops: (D, D),
+    pub arm_ring: V2,
+    pub wave_slope: WaveSlope,
     /// How rotations of the ball move it along its slice (see `cap`).
-    pub(super) swing: Vector3<f64>,
+    pub swing: Vector3<f64>,
 }
 
 /// One feature of the ring against one of the ball.
 #[derive(Clone, Copy)]
-pub(super) struct ElementPair<D> {
-    pub(super) feature: RingElement<D>,
+pub(in crate::contact) struct ElementPair<D> {
+    pub feature: RingElement<D>,
     /// Drops of the ball's side.
-    pub(super) ball_drops: (D, D),
-    pub(super) tan: f64,
+    pub ball_drops: (D, D),
+    pub tan: f64,
 }
 
 impl<D: Depth> ElementPair<D> {
@@ -75,7 +76,7 @@ impl<D: Depth> ElementPair<D> {
     }
 
     /// The four drops of the law's argument and their signs; an infinite one does not count.
-    pub(super) fn terms(&self) -> [(f64, D); 4] {
+    pub fn terms(&self) -> [(f64, D); 4] {
         let ((a, b), (p, q)) = (self.feature.drops, self.ball_drops);
         [(1.0, a + p), (-1.0, a + q), (-1.0, b + p), (1.0, b + q)]
     }
@@ -83,14 +84,14 @@ impl<D: Depth> ElementPair<D> {
 
 /// Penetrations of all elements that a place may meet; their zeros end the elements' zones.
 pub(in crate::contact) struct Penetrations {
-    pub(in crate::contact) values: [f64; MOST_KEPT],
-    pub(in crate::contact) count: usize,
+    pub values: [f64; MOST_KEPT],
+    pub count: usize,
 }
 
 /// Penetrations that are kept; a bed of floor circles can have more, at some loss of accuracy.
 const MOST_KEPT: usize = 24;
 
-impl OneContact<'_> {
+impl Facing<'_> {
     /// Whether a surface is absent where the slice meets it.
     pub(in crate::contact) fn is_open(&self, node: &Node) -> bool {
         let direction = self.n * self.race.sigma;
@@ -115,15 +116,10 @@ impl OneContact<'_> {
         found
     }
 
-    /// Fall of the law's penetration over that of the geometry: 1, or cos α' for the Hertz law.
-    pub(super) fn drop_share(&self) -> f64 {
-        self.common().map_or(1.0, |(cos, _)| cos)
-    }
-
     pub(super) fn ring_arc(&self, node: &Node) -> Option<Arc> {
-        let defects = &self.pair.defects;
         if self.ring_open {
-            absent(defects, &node.on_ring(), &Toward::race(self.on_ring))
+            let toward = Toward::race(self.on_ring);
+            absent(self.race_side.defects, &node.on_ring(), &toward)
         } else {
             None
         }
@@ -134,7 +130,7 @@ impl OneContact<'_> {
             return None;
         }
         absent(
-            &self.ball.defects,
+            self.ball_side.defects,
             &node.on_ball(),
             &self.out_of_ball(direction),
         )
@@ -148,14 +144,14 @@ impl OneContact<'_> {
     /// Places ζ between which caps of the ball have taken away what would meet the race.
     pub(in crate::contact) fn crossings(&self) -> impl Iterator<Item = f64> + Clone {
         let n = self.n * self.race.sigma;
-        let defects = self.ball.defects.iter().filter(|_| self.ball_open);
+        let defects = self.ball_side.defects.iter().filter(|_| self.ball_open);
         defects
             .filter_map(move |defect| defect.crossings(self.b, n))
             .flatten()
     }
 
     /// All pairs of features that stand against each other at a slice.
-    pub(super) fn element_pairs<D: Depth>(
+    pub(in crate::contact) fn element_pairs<D: Depth>(
         &self,
         node: &Node,
         visit: &mut impl FnMut(&ElementPair<D>),
@@ -175,7 +171,7 @@ impl OneContact<'_> {
         let drops = (both, D::NEVER);
         self.feature(node, &RingElement { drops, ..race }, visit);
         let toward = Toward::race(self.on_ring);
-        for (edge, depth) in floors(&self.pair.defects, node.on_ring(), toward, &arc) {
+        for (edge, depth) in floors(self.race_side.defects, node.on_ring(), toward, &arc) {
             let circle = self.ring_circle(node, &edge, depth);
             let drops = (race.s - circle.s, D::NEVER);
             self.feature(node, &RingElement { drops, ..circle }, visit);
@@ -211,19 +207,11 @@ impl OneContact<'_> {
 
     /// What the waves' slope does in a direction and at a distance from the ring's centre.
     pub(super) fn wave_slope(&self, n: V2, distance: f64, slope: f64, arm: V2) -> WaveSlope {
-        if self.pair.waves.is_round() {
+        if self.race_side.waves.is_round() {
             return WaveSlope::default();
         }
         let force = turned(n) * (self.race.sigma * slope / distance);
         WaveSlope { force, arm }
-    }
-
-    /// Slope of the race's radius along z.
-    pub(super) fn race_slope(&self, node: &Node) -> f64 {
-        match &self.surface {
-            None => self.race.slope(node.z, node.torus_radius),
-            Some(surface) => surface.curve.at(node.z).slope,
-        }
     }
 
     /// A feature of the ring against the ball, smooth or not.
@@ -263,7 +251,7 @@ impl OneContact<'_> {
             ..ElementPair::smooth(*feature, node)
         });
         let toward = self.out_of_ball(feature.n_e);
-        for (edge, depth) in floors(&self.ball.defects, node.on_ball(), toward, &arc) {
+        for (edge, depth) in floors(self.ball_side.defects, node.on_ball(), toward, &arc) {
             let (drop, circle, tan) = meet(&edge, depth);
             visit(&ElementPair {
                 feature: circle,

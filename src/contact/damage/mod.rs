@@ -1,0 +1,393 @@
+//! Damage of surfaces: one file for each kind behind the trait [`DamageKind`], and what a contact meets where a surface is damaged.
+//!
+//! A damage acts in one of two ways ([`Acts`]): the surface is absent over arcs at whose ends fault circles stand (model section 7), or the
+//! contact keeps whole surfaces and changes its energy, and with it its force (section 15). [`Facing`] is a ball before a race: `elements`
+//! has the surfaces that a slice meets there, `circles` fault circles against whatever stands opposite, `gradient` what makes their forces
+//! conservative, `released` the energy of what is smaller than the contact.
+
+mod arc;
+mod cap;
+mod circles;
+mod dent;
+mod depth;
+mod elements;
+mod facing;
+mod gradient;
+mod hole;
+mod patch;
+mod pit;
+mod released;
+mod small;
+mod toward;
+
+use std::f64::consts::PI;
+
+use nalgebra::Vector3;
+
+use super::{Motion, V2, wrapped};
+use crate::contact::hertz::Hertz;
+use crate::scene::{Damage, Defect};
+pub(super) use arc::WITH_RING_AXIS;
+use arc::{Arc, Station};
+use cap::Cap;
+use dent::Dent;
+use hole::Released;
+use patch::{CircleEdges, Patch};
+use pit::Pit;
+use small::SmallBed;
+
+pub(super) use depth::{Depth, Sloped};
+pub(super) use elements::{ElementPair, RingElement, WaveSlope};
+pub(super) use facing::{Facing, Node, SurfaceSide};
+pub(super) use gradient::{BESIDE, Owner};
+pub(crate) use hole::PittedContact;
+pub(super) use hole::Yield;
+pub(super) use released::Moving;
+pub(crate) use released::{MOST_AT_ONCE, met_at_once};
+
+pub(crate) use toward::Toward;
+
+/// Over the largest half-angle, how far a defect is looked for: a race's radius changes by films, by some ten-thousandths.
+const MARGIN: f64 = 1.01;
+
+/// A defect of a surface, compiled: places in the frame of its body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SurfaceDefect {
+    /// Angular place on the body \[rad\].
+    angle: f64,
+    /// Axial place of the middle, in the ring's frame or from the ball's centre \[m\].
+    middle: f64,
+    /// Thickness of the oil film on fault circles \[m\].
+    pub(super) coat: f64,
+    /// The largest half-angle, and a little more: a contact further away never meets the defect \[rad\]. Of a cap while its ball is as at
+    /// the start.
+    pub(crate) reach: f64,
+    kind: AnyDamage,
+}
+
+/// What a damage lies in.
+pub(crate) struct Bed {
+    /// Axial place of the damage's middle, in the ring's frame or from the ball's centre \[m\].
+    pub middle: f64,
+    /// Radius of the race there or of the ball \[m\].
+    pub radius: f64,
+    /// The least radius over the damage's length \[m\].
+    pub least: f64,
+    /// Contacts with the outer and the inner race, where they can meet it.
+    pub contacts: [PittedContact; 2],
+}
+
+impl Bed {
+    /// Of a surface that has the same radius over the damage's length.
+    pub fn round(middle: f64, radius: f64, contacts: [PittedContact; 2]) -> Self {
+        Self {
+            middle,
+            radius,
+            least: radius,
+            contacts,
+        }
+    }
+}
+
+/// All kinds.
+#[derive(Debug, Clone, PartialEq)]
+enum AnyDamage {
+    Patch(Patch),
+    Cap(Cap),
+    Pit(Pit),
+    Dent(Dent),
+}
+
+impl AnyDamage {
+    /// Of a damage in its bed.
+    ///
+    /// # Panics
+    /// For steep walls, in whose place a scene gets a patch before it is compiled.
+    fn new(damage: &Damage, bed: &Bed) -> Self {
+        match damage {
+            Damage::Patch {
+                length,
+                width,
+                edge_radius,
+                floor,
+            } => {
+                let edges = CircleEdges::new(*edge_radius, floor.as_ref());
+                Patch::compiled(*length, width, edges)
+            }
+            Damage::SteepPatch { .. } => {
+                panic!("steep walls are placed before a scene is compiled")
+            }
+            Damage::Cap {
+                width,
+                edge_radius,
+                floor,
+            } => {
+                let edges = CircleEdges::new(*edge_radius, floor.as_ref());
+                Cap::compiled(*width, edges, bed)
+            }
+            Damage::Pit { width, length } => Pit::compiled(*width, *length, bed),
+            Damage::Dent {
+                width,
+                length,
+                depth,
+                rim_height,
+            } => Dent::compiled((*width, *length), (*depth, *rim_height), bed),
+        }
+    }
+
+    fn get(&self) -> &dyn DamageKind {
+        match self {
+            Self::Patch(kind) => kind,
+            Self::Cap(kind) => kind,
+            Self::Pit(kind) => kind,
+            Self::Dent(kind) => kind,
+        }
+    }
+
+    fn get_mut(&mut self) -> &mut dyn DamageKind {
+        match self {
+            Self::Patch(kind) => kind,
+            Self::Cap(kind) => kind,
+            Self::Pit(kind) => kind,
+            Self::Dent(kind) => kind,
+        }
+    }
+}
+
+/// What is asked of a kind of damage. Where `e` is given, it is the direction of the damage's middle in the frame in which the ball that
+/// has it is seen.
+trait DamageKind {
+    /// The largest half-angle at which a contact may meet it in its bed, and a little more \[rad\].
+    fn reach(&self, angle: f64, bed: &Bed) -> f64;
+
+    /// The direction of its middle in the frame of the ball that has it, of what turns with a ball in every direction.
+    fn pole(&self, of: &SurfaceDefect) -> Option<Vector3<f64>>;
+
+    /// Half of the angle over which it may be met \[rad\].
+    fn half(&self, of: &SurfaceDefect, e: Option<&Vector3<f64>>) -> f64;
+
+    /// Whether a contact in this direction may meet it.
+    fn is_near(&self, of: &SurfaceDefect, toward: &Toward, e: Option<&Vector3<f64>>) -> bool;
+
+    /// Takes over the half-width of contacts under a typical load \[m\]; how far it is looked for then \[rad\], where that changes.
+    fn widened(&mut self, half_width: f64) -> Option<f64>;
+
+    /// The same in a mirror, z → −z.
+    fn mirrored(&self) -> AnyDamage;
+
+    /// How it acts on contacts.
+    fn acts(&self) -> Acts<'_>;
+}
+
+/// How a damage acts on contacts.
+enum Acts<'a> {
+    /// The surface is absent over arcs.
+    Cuts(&'a dyn Cuts),
+    /// Surfaces stay whole, and the energy of the contact changes.
+    Releases(&'a dyn Releases),
+}
+
+/// A damage with arcs over which the surface is absent.
+trait Cuts {
+    /// The arc at an axial place, its middle at an angle from where it is seen \[rad\].
+    fn arc(
+        &self,
+        of: &SurfaceDefect,
+        at: &Station,
+        middle: f64,
+        e: Option<&Vector3<f64>>,
+    ) -> Option<Arc>;
+
+    /// Length between its two axial ends \[m\]; none of what has none.
+    fn length(&self) -> Option<f64>;
+
+    /// Places ζ between which it has taken away what stands in a direction, of what is fixed in a ball \[m\].
+    fn crossings(&self, e: &Vector3<f64>, n: V2) -> Option<[f64; 2]>;
+
+    /// Depth \[m\] and number of the recessed circles.
+    fn floor(&self) -> Option<(f64, usize)>;
+}
+
+/// A damage smaller than its contacts.
+trait Releases {
+    /// Where it lies.
+    fn bed(&self) -> &SmallBed;
+
+    /// Half of its extent across the race \[m\].
+    fn across(&self) -> f64;
+
+    /// What it does to the energy of a contact with the outer (0) or the inner race (1) at an approach \[m\] and a place (x₀, y₀) of its
+    /// middle in the contact \[m\].
+    fn released(&self, race: usize, depth: f64, at: [f64; 2]) -> Released;
+}
+
+/// Directions in the frame of the scene: those whose component along the middle, over their length, is above a bound.
+pub(crate) struct Sight {
+    pub middle: [f64; 2],
+    pub bound: f64,
+}
+
+impl SurfaceDefect {
+    /// A defect whose middle lies at `middle` on a surface of a radius \[m\], the same over its length, that no contact bulges into.
+    pub fn new(defect: &Defect, middle: f64, radius: f64) -> Self {
+        let contacts = [PittedContact::default(); 2];
+        Self::within(defect, &Bed::round(middle, radius, contacts))
+    }
+
+    /// A defect in its bed.
+    pub(crate) fn within(defect: &Defect, bed: &Bed) -> Self {
+        let kind = AnyDamage::new(&defect.damage, bed);
+        Self {
+            angle: defect.angle,
+            middle: bed.middle,
+            coat: 0.0,
+            reach: kind.get().reach(defect.angle, bed),
+            kind,
+        }
+    }
+
+    /// The direction of the middle of what turns with its ball, in the frame in which the ball is seen.
+    fn pole(&self, ball: &Motion) -> Option<Vector3<f64>> {
+        let pole = self.kind.get().pole(self)?;
+        Some(ball.carried(&pole))
+    }
+
+    /// Whether another defect is this one's mirror image about the plane at half of `sum` along z, to a rounding
+    /// \[m\].
+    pub(crate) fn is_image(&self, other: &Self, sum: f64, rounding: f64) -> bool {
+        let image = Self {
+            middle: self.middle,
+            reach: self.reach,
+            kind: other.kind.get().mirrored(),
+            ..*other
+        };
+        (self.middle + other.middle - sum).abs() <= rounding
+            // Each found it on its own race.
+            && (self.reach - other.reach).abs() <= 1e-12 * self.reach
+            && *self == image
+    }
+
+    /// The directions of contacts that may meet the defect, while its body is turned by an angle.
+    pub(crate) fn sight(&self, turned: f64) -> Sight {
+        let (sin, cos) = (self.angle + turned).sin_cos();
+        Sight {
+            middle: [cos, sin],
+            // A little more than the reach, for rounding.
+            bound: self.reach.min(PI).cos() - 1e-12,
+        }
+    }
+
+    /// Whether a contact in this direction may meet the defect.
+    pub(crate) fn in_reach(&self, toward: &Toward) -> bool {
+        let e = toward.pole(self);
+        self.kind.get().is_near(self, toward, e.as_ref())
+    }
+
+    /// Whether the surface is absent over arcs, and not whole.
+    pub(super) fn cuts(&self) -> bool {
+        self.as_cuts().is_some()
+    }
+
+    fn as_cuts(&self) -> Option<&dyn Cuts> {
+        match self.kind.get().acts() {
+            Acts::Cuts(cuts) => Some(cuts),
+            Acts::Releases(_) => None,
+        }
+    }
+
+    fn as_releases(&self) -> Option<&dyn Releases> {
+        match self.kind.get().acts() {
+            Acts::Cuts(_) => None,
+            Acts::Releases(releases) => Some(releases),
+        }
+    }
+
+    /// Its two axial ends, in the ring's frame or from the ball's centre \[m\]; none of what has none.
+    pub(super) fn ends(&self) -> impl Iterator<Item = f64> + Clone + use<> {
+        let length = self.as_cuts().and_then(Cuts::length);
+        let (middle, sides) = (
+            self.middle,
+            length.map(|length| [-0.5, 0.5].map(|of| (of, length))),
+        );
+        let ends = sides.into_iter().flatten();
+        ends.map(move |(share, length)| middle + share * length)
+    }
+
+    /// Places ζ between which a damage that is fixed in the ball has taken away what stands in a direction \[m\].
+    fn crossings(&self, ball: &Motion, n: V2) -> Option<[f64; 2]> {
+        let cuts = self.as_cuts()?;
+        cuts.crossings(&self.pole(ball)?, n)
+    }
+
+    /// Whether the surface is absent at an axial place where it has this radius, or a contact met there, in a direction this far from the
+    /// defect's own \[rad\]; `ball` is the orientation of the ball that has it.
+    pub(crate) fn covers(&self, z: f64, radius: f64, aside: f64, ball: &Motion) -> bool {
+        let cuts = match self.kind.get().acts() {
+            Acts::Cuts(cuts) => cuts,
+            Acts::Releases(small) => return aside.abs() <= small.bed().span,
+        };
+        let at = Station {
+            z,
+            beside: 0.0,
+            radius,
+        };
+        let e = self.pole(ball);
+        let middle = match e {
+            None => wrapped(self.angle - (self.angle + aside)),
+            Some(_) => -aside,
+        };
+        let arc = cuts.arc(self, &at, middle, e.as_ref());
+        arc.is_some_and(|arc| arc.low.angle <= 0.0 && arc.high.angle >= 0.0)
+    }
+
+    /// The arc at an axial place, seen from a direction.
+    fn arc(&self, at: &Station, toward: &Toward) -> Option<Arc> {
+        let cuts = self.as_cuts()?;
+        let e = toward.pole(self);
+        let middle = match &e {
+            None => wrapped(self.angle - toward.angle),
+            Some(e) => toward.aside_of(e),
+        };
+        cuts.arc(self, at, middle, e.as_ref())
+    }
+
+    /// Depth \[m\] and number of the recessed circles.
+    fn floor(&self) -> Option<(f64, usize)> {
+        self.as_cuts()?.floor()
+    }
+
+    /// Takes over the half-width of contacts under a typical load \[m\].
+    pub(crate) fn widen(&mut self, half_width: f64) {
+        if let Some(reach) = self.kind.get_mut().widened(half_width) {
+            self.reach = reach;
+        }
+    }
+
+    /// Whether it is smaller than its contacts.
+    pub(crate) fn is_small(&self) -> bool {
+        self.as_releases().is_some()
+    }
+
+    /// Whether what should be smaller than its contact is too large for it under a load \[N\]: longer than nine tenths of it, or releasing
+    /// 1.8 times its energy, beyond which a solver by boundary elements loses something else.
+    pub(crate) fn outgrows(&self, race: usize, contact: &Hertz, load: f64) -> bool {
+        const LONGEST: f64 = 0.9;
+        const MOST_RELEASED: f64 = 1.8;
+        let (Some(small), Some((_, released))) =
+            (self.as_releases(), self.takes(race, contact, load))
+        else {
+            return false;
+        };
+        small.across() > LONGEST * contact.half_length * load.cbrt() || released > MOST_RELEASED
+    }
+
+    /// What a damage smaller than its contact with the outer (0) or the inner race (1) takes of the load at its middle, at one and the same
+    /// approach \[N\], and X.
+    pub(crate) fn takes(&self, race: usize, contact: &Hertz, load: f64) -> Option<(f64, f64)> {
+        let (small, depth) = (self.as_releases()?, contact.approach(load));
+        let released = small.released(race, depth, [0.0; 2]);
+        let of = &small.bed().contacts[race];
+        let found = Yield::of(of, 0.4 * load * depth, &[released]);
+        Some((load * (1.0 - found.share), found.exponent))
+    }
+}

@@ -1,0 +1,114 @@
+//! Patches: the surface is absent over a length along the axis and a width along rolling.
+//!
+//! A slice at z has lost the arc of half-width w(z)/(2ρ) about the patch's middle. On a ball a patch lies between two planes across the
+//! ring's axis, about which alone it turns.
+
+use nalgebra::Vector3;
+
+use super::arc::{Arc, EdgeCourse, Station};
+use super::toward::Toward;
+use super::{Acts, AnyDamage, Bed, Cuts, DamageKind, MARGIN, SurfaceDefect};
+use crate::contact::V2;
+use crate::scene::{Floor, Width};
+
+/// A patch, compiled.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Patch {
+    /// Axial length \[m\].
+    length: f64,
+    width: Width,
+    edges: CircleEdges,
+}
+
+/// Fault circles at the edges of an arc, and those of its floor.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct CircleEdges {
+    /// R_f \[m\].
+    pub radius: f64,
+    /// Depth \[m\] and number of the recessed circles.
+    pub floor: Option<(f64, usize)>,
+}
+
+impl CircleEdges {
+    pub fn new(radius: f64, floor: Option<&Floor>) -> Self {
+        let floor = floor.map(|&Floor { depth, elements }| (depth, elements));
+        Self { radius, floor }
+    }
+}
+
+impl Patch {
+    /// Of a surface.
+    pub fn compiled(length: f64, width: &Width, edges: CircleEdges) -> AnyDamage {
+        AnyDamage::Patch(Self {
+            length,
+            width: width.clone(),
+            edges,
+        })
+    }
+}
+
+impl DamageKind for Patch {
+    fn reach(&self, _angle: f64, bed: &Bed) -> f64 {
+        MARGIN * self.width.largest() / (2.0 * bed.least)
+    }
+
+    fn pole(&self, _of: &SurfaceDefect) -> Option<Vector3<f64>> {
+        None
+    }
+
+    fn half(&self, of: &SurfaceDefect, _e: Option<&Vector3<f64>>) -> f64 {
+        of.reach / MARGIN
+    }
+
+    fn is_near(&self, of: &SurfaceDefect, toward: &Toward, _e: Option<&Vector3<f64>>) -> bool {
+        toward.aside(of).abs() <= of.reach
+    }
+
+    fn widened(&mut self, _half_width: f64) -> Option<f64> {
+        None
+    }
+
+    fn mirrored(&self) -> AnyDamage {
+        AnyDamage::Patch(Self {
+            width: self.width.reversed(),
+            ..self.clone()
+        })
+    }
+
+    fn acts(&self) -> Acts<'_> {
+        Acts::Cuts(self)
+    }
+}
+
+impl Cuts for Patch {
+    fn arc(
+        &self,
+        of: &SurfaceDefect,
+        at: &Station,
+        middle: f64,
+        _e: Option<&Vector3<f64>>,
+    ) -> Option<Arc> {
+        let from_middle = at.z - of.middle;
+        if (from_middle + at.beside).abs() > self.length / 2.0 {
+            return None;
+        }
+        let (width, slope) = self.width.at(from_middle);
+        (width > 0.0).then(|| {
+            let course = EdgeCourse::Width { width, slope };
+            let half = width / (2.0 * at.radius);
+            Arc::about(middle, half, self.edges.radius + of.coat, course)
+        })
+    }
+
+    fn length(&self) -> Option<f64> {
+        Some(self.length)
+    }
+
+    fn crossings(&self, _e: &Vector3<f64>, _n: V2) -> Option<[f64; 2]> {
+        None
+    }
+
+    fn floor(&self) -> Option<(f64, usize)> {
+        self.edges.floor
+    }
+}
