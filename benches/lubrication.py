@@ -20,15 +20,15 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 import polars as pl
-import studies
-from studies import Study, cost_of, draw_costs
 
 import ballrace as br
+import studies
 from ballrace._ellipse import axis_ratio
 from ballrace.paper.measures import orbit, passages
 from ballrace.paper.simulations import FS as FS_OF_PAPER
 from ballrace.paper.simulations import SETTLED, dynamic
 from ballrace.scene import Lubricant, MotionProbe, OilLayer, Row
+from studies import Study, cost_of, draw_costs
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

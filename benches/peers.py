@@ -38,6 +38,8 @@ import warnings
 from pathlib import Path
 
 import numpy as np
+
+import ballrace as br
 from programs.dormand_prince import DormandPrince, slice_errors
 from programs.measuring import (
     Row,
@@ -62,8 +64,6 @@ from programs.wheel import (
 from programs.with_exudyn import exudyn_cases
 from programs.with_octave import Octave
 from programs.with_scipy import Scipy
-
-import ballrace as br
 
 TARGETS = (5e-2, 1e-2, 3e-3)
 OUR_NODES = (4, 6, 8, 12, 16, 24)

@@ -19,10 +19,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 import polars as pl
 from matplotlib import pyplot as plt
-from precision.draw import BLUE, GREEN, ORANGE, RED
 
 import ballrace as br
 from ballrace.scene import Defect, FittedSlices
+from precision.draw import BLUE, GREEN, ORANGE, RED
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -15,6 +15,7 @@ from pathlib import Path
 import numpy as np
 from numpy.polynomial import Polynomial
 from numpy.typing import NDArray
+
 from precision import draw
 from work_precision import write
 

@@ -23,12 +23,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import polars as pl
-import studies
-from one_ball import EXPLICIT, RACES, ball_of_218, spun
 from scipy.special import ellipe
-from studies import Study, cost_of, draw_costs
 
 import ballrace as br
+import studies
 from ballrace._ellipse import axis_ratio
 from ballrace.paper.simulations import FS as FS_OF_PAPER
 from ballrace.paper.simulations import dynamic
@@ -48,6 +46,8 @@ from ballrace.scene import (
     Support,
     TorqueProbe,
 )
+from one_ball import EXPLICIT, RACES, ball_of_218, spun
+from studies import Study, cost_of, draw_costs
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

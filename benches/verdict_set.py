@@ -26,9 +26,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-from verdict_library import ACCUSED, defect, log_uniform, texture, waves
 
 import ballrace as br
+from verdict_library import ACCUSED, defect, log_uniform, texture, waves
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

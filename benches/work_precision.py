@@ -16,9 +16,8 @@ import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from precision import contact, features, knobs, methods, pits, signals
-
 import ballrace as br
+from precision import contact, features, knobs, methods, pits, signals
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

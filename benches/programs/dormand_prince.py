@@ -17,8 +17,9 @@ from typing import TYPE_CHECKING, Any
 
 import numba
 import numpy as np
-from numba_bearing import rhs
 from scipy.integrate import RK45
+
+from numba_bearing import rhs
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -10,9 +10,9 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numba_bearing import Bearing
 
 import ballrace as br
+from numba_bearing import Bearing
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

@@ -13,8 +13,9 @@ import numpy as np
 import scipy.io
 
 if TYPE_CHECKING:
-    from numba_bearing import Bearing
     from numpy.typing import NDArray
+
+    from numba_bearing import Bearing
 
     Array = NDArray[np.float64]
 

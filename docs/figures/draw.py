@@ -6,6 +6,7 @@ Drawings show how things are named, not how they are shaped: angles, clearances 
 from __future__ import annotations
 
 import functools
+import sys
 from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -16,10 +17,9 @@ import numpy as np
 from matplotlib.patches import Arc, Circle, Polygon
 
 import ballrace as br
-from ballrace.diagnosis.library import library
-from ballrace.diagnosis.likelihood import fitted, judged, odds_of, rows_of
+from ballrace.diagnosis.likelihood import numbers_of
 from ballrace.diagnosis.null import ACCUSED
-from ballrace.diagnosis.width import are_clear, bridged
+from ballrace.diagnosis.width import are_clear
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 HERE = Path(__file__).parent
+sys.path.append(str(HERE.parents[1] / "benches"))
 STEEL, EDGE, BALL, RED, BLUE = "#d7dde3", "#3d4852", "#f3f5f7", "#b3261e", "#1c5d99"
 
 mpl.rcParams |= {
@@ -379,12 +380,15 @@ def films(ax: Axes) -> None:
 
 def reliability(ax: Axes) -> None:
     """Draw shares of damaged parts over the chances by the fit, of bearings that the fit did not see."""
+    from verdict_fit import judged, ratios, regression
+
     rows = judged()
     chances, true = [], []
     for part in ACCUSED:
         for bearing in np.unique(rows["bearing"]):
             own = rows[rows["bearing"] == bearing]
-            odds = odds_of(fitted(part, True, bearing), rows_of(part, own, True))
+            model = regression(part, True, bearing)
+            odds = model["prior"] / ratios(model, numbers_of(part, own, True))
             chances += (odds / (1.0 + odds)).tolist()
             true += (own["part"] == part).tolist()
     chance, damaged = np.array(chances), np.array(true)
@@ -401,6 +405,8 @@ def reliability(ax: Axes) -> None:
 
 def widths(ax: Axes) -> None:
     """Draw widths of simulated spalls over the spacing of the events of a pass, with the 90 % intervals."""
+    from verdict_fit import bridged, library
+
     rows = library()
     rows = rows[are_clear(rows)]
     for part, colour, marker in (("outer_race", RED, "v"), ("inner_race", BLUE, "s")):

@@ -55,6 +55,8 @@ class Channel:
         What was simulated; None of what was measured.
     warnings : tuple of str
         Warnings about the record: uncertain accelerations, clipped samples.
+    is_run : bool
+        Whether it is a column of a run itself: neither a path through a machine nor a sensor is in between.
     """
 
     x: NDArray[np.float64]
@@ -65,6 +67,7 @@ class Channel:
     shaft: float | None = None
     scene: Scene | None = None
     warnings: tuple[str, ...] = ()
+    is_run: bool = False
 
     def __repr__(self) -> str:
         shaft = "" if self.shaft is None else f", shaft {self.shaft:g} Hz"

@@ -164,7 +164,8 @@ class AccuracyWarning(UserWarning):
     where contacts rode over a shoulder or past the pole of ball and groove
     (``out.stats.truncated_contacts``), and where a run was asked for an ``accuracy`` that its pilot runs did
     not reach. ``out.warnings`` keeps the texts.
-    Also given by a measuring chain whose logger clips more than 0.1 % of the samples.
+    Also given by a measuring chain whose logger clips more than 0.1 % of the samples, and where pulses of a
+    tachometer were missing or double.
     ``warnings.simplefilter("error", ballrace.AccuracyWarning)`` makes it an error.
     """
 

@@ -270,7 +270,8 @@ class Signals(Columns):
         return {"shaft": shaft_of(self.scene), "metadata": entries}
 
     def _known(self) -> dict[str, Any]:
-        return {"shaft": shaft_of(self.scene), "scene": self.scene, "warnings": self.warnings}
+        known = {"shaft": shaft_of(self.scene), "scene": self.scene, "warnings": self.warnings}
+        return known | {"is_run": True}
 
     def _origin(self) -> Origin:
         return origin_of(self.scene, self._provenance.get("version"))
@@ -284,8 +285,10 @@ class Signals(Columns):
     ) -> None:
         """Write a report of the run: one page that needs no network.
 
-        It has the bearing drawn, the operating point, loads, pressures and rating life, the signal with its
-        spectra and the lines of defects, features, what the model held and left out, warnings, and provenance.
+        It begins with the verdict of :func:`ballrace.diagnose` on the first acceleration that is shown, or why
+        there is none. Then come warnings, the bearing drawn, the operating point, loads, pressures, rating life,
+        the signal with its spectra and the lines of defects, features, what the model held and left out, and
+        provenance.
 
         Parameters
         ----------

@@ -16,11 +16,13 @@ import numpy as np
 import pytest
 
 import ballrace as br
+from ballrace.diagnosis.bursts import Bursts
+from ballrace.diagnosis.drift import without_drift
 from ballrace.diagnosis.lacking import unexplained
 from ballrace.diagnosis.null import largest_z, null_orders, probability
 from ballrace.diagnosis.severity import zone_of
-from ballrace.diagnosis.strength import limits_of
-from ballrace.diagnosis.verdict import Verdict, decided
+from ballrace.diagnosis.upper import upper_edge
+from ballrace.diagnosis.verdict import Size, Verdict, decided
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -70,8 +72,8 @@ def test_blows_accuse_the_part_with_their_rate(part: str, seed: int) -> None:
     assert (found.verdict, found.parts) == ("damaged", (part,))
     one = found.evidence[found.parts[0]]
     assert one.probability < 1e-3
-    assert one.factor == pytest.approx(1.0, abs=0.0025)
-    assert one.strength.depth > 0.4
+    assert one.factor * found.shaft.rate == pytest.approx(SHAFT, rel=0.0025)
+    assert one.strength.depth > 0.5
     assert {line.label for line in one.lines} >= {"outer_race": {"BPFO"}, "inner_race": {"BPFI"},
                                                   "ball": {"2·BSF"}}[part]  # fmt: skip
 
@@ -187,13 +189,28 @@ def test_what_is_excluded_accuses_nobody() -> None:
     assert "excluded" in found.why
 
 
-def test_faint_lines_are_no_damage() -> None:
+def run_of(x: Signal, scale: float, rpm: float = RPM) -> br.Diagnosis:
+    """Return the verdict on a signal as that of a run, of a scaled size [m/s²]."""
+    scene = br.bearing("6205", radial_load=500.0, speed_rpm=rpm)
+    fs = FS * rpm / RPM
+    return br.diagnose(
+        br.Channel(
+            x=scale * x / x.std(), fs=fs, unit="m/s^2", shaft=rpm / 60.0, scene=scene, is_run=True
+        )
+    )
+
+
+def test_weak_lines_are_left_open_and_clear_a_run_only() -> None:
     """The same blows as an acceleration of 0.05 m/s², as of a loaded healthy bearing, and of 50 m/s²."""
     x = noise(blows(ORDERS.bpfo), 0.05)
     quiet, loud = (judged(scale * x / x.std(), unit="m/s^2") for scale in (0.05, 50.0))
-    assert quiet.verdict == "healthy"
-    assert quiet.why.startswith("lines of the outer race are there")
+    assert quiet.verdict == "undecided"
+    assert "lines of the outer race are certain" in quiet.why
+    assert "early damage, a distant sensor, or a wrong unit" in quiet.why
     assert loud.parts == ("outer_race",)
+    run = run_of(x, 0.05)
+    assert run.verdict == "healthy"
+    assert run.why.startswith("lines of the outer race are there")
     in_g = judged(50.0 / 9.80665 * x / x.std(), unit="g").evidence["outer_race"].strength
     assert in_g.acceleration == pytest.approx(loud.evidence["outer_race"].strength.acceleration)
     # Nearly all of the record comes at that rate.
@@ -204,155 +221,241 @@ def test_faint_blows_of_a_ball_are_damage() -> None:
     """Neither the load zone nor waves of a race have a ball's rate, so that its blows need no size."""
     x = noise(blows(RATES["ball"], SIDEBANDS["ball"]), 0.05)
     assert judged(0.1 * x / x.std(), unit="m/s^2").parts == ("ball",)
+    assert run_of(x, 0.1).parts == ("ball",)
+
+
+def decide(evidence: dict[Part, Any], **more: Any) -> Verdict:
+    """Return the verdict on evidence of a record that lacks nothing and would have shown damage."""
+    seen = br.diagnosis.Sensitivity(share=0.1, acceleration=1.0, width=1e-3)
+    given: dict[str, Any] = {
+        "size": None,
+        "is_run": False,
+        "bursts": None,
+        "seen": seen,
+        "wanting": (),
+    }
+    return decided(evidence, 0.01, **(given | more))
 
 
 def test_what_is_likelier_of_damage_is_not_cleared() -> None:
     """Of noise nothing stands out; a ratio of 1 : 20 leaves it open all the same, one of 1 : 2 does not."""
-    evidence = judged(noise(np.zeros(24_000), 1.0)).evidence
+    evidence = dict(judged(noise(np.zeros(24_000), 1.0)).evidence)
 
-    def decide(ratio: float) -> Verdict:
-        given = dict(evidence) | {"ball": replace(evidence["ball"], ratio=ratio)}
-        return decided(
-            given, (), 0.01, strong=(), limits=None, silent=False, impacts=None, wanting=()
-        )
+    def ball(ratio: float) -> Verdict:
+        return decide(evidence | {"ball": replace(evidence["ball"], ratio=ratio)})
 
-    assert decide(0.5).verdict == "healthy"
-    assert decide(0.05).verdict == "undecided"
-    assert "20 times likelier with the ball damaged" in decide(0.05).why
+    assert ball(0.5).verdict == "healthy"
+    assert "a spall of 1 mm of the outer race would stand out" in ball(0.5).why
+    assert ball(0.05).verdict == "undecided"
+    assert "20 times likelier with the ball damaged" in ball(0.05).why
 
 
-def test_lines_between_both_limits_leave_it_open() -> None:
+def test_a_record_in_which_nothing_would_stand_out_clears_nothing() -> None:
+    evidence = dict(judged(noise(np.zeros(24_000), 1.0)).evidence)
+    assert decide(evidence, seen=None).verdict == "undecided"
+    assert decide(evidence, seen=None, is_run=True).verdict == "healthy"
+
+
+def test_lines_of_a_slow_run_leave_it_open() -> None:
     """Blows at 590 1/min: healthy ones have up to 0.3 m/s² there, 1.8 times the limit for faint lines."""
     x = noise(blows(ORDERS.bpfo), 0.05)
-    quiet, between, loud = (
-        br.diagnose(scale * x / x.std(), "6205", RPM / 3, fs=FS / 3, unit="m/s^2")
-        for scale in (0.15, 0.4, 1.5)
-    )
+    quiet, between, loud = (run_of(x, scale, RPM / 3) for scale in (0.15, 0.4, 2.0))
     assert (quiet.verdict, between.verdict, loud.verdict) == ("healthy", "undecided", "damaged")
     assert "from when it was new" in between.why
 
 
-def test_lines_without_background_need_a_unit() -> None:
-    """Blows in silence may be those of a loaded healthy bearing in a simulated array."""
-    x = blows(ORDERS.bpfo)
-    found = judged(x)
-    assert found.verdict == "undecided"
-    assert "unit" in found.why
-    assert judged(noise(x, 1e-3 * x.std())).verdict == "undecided"
-    assert judged(noise(x, 0.1 * x.std())).parts == ("outer_race",)
-    assert judged(50.0 * x / x.std(), unit="m/s^2").parts == ("outer_race",)
+def test_waves_without_blows_leave_it_open() -> None:
+    """Tones at multiples of BPFO, as of balls that pass through the load zone of a smooth bearing, in noise.
 
-
-def test_waves_without_blows_need_a_unit() -> None:
-    """Tones at multiples of BPFO, as of balls that pass through the load zone of a smooth bearing, in noise."""
+    Truth: the squared envelope of tones has a depth of at most 1, and they a kurtosis below 3; however strong.
+    """
     t = np.arange(round(4.0 * FS)) / FS
     tones = [np.cos(2 * np.pi * k * ORDERS.bpfo * SHAFT * t + k * k) for k in range(4, 12)]
     x = noise(np.sum(tones, axis=0), 1.0)
-    found = judged(x)
-    assert found.evidence["outer_race"].probability < 0.01
-    assert found.evidence["outer_race"].strength.depth > 0.4
-    assert (found.verdict, "strength of lines" in found.why) == ("undecided", True)
-    assert judged(10.0 * x, unit="m/s^2").parts == ("outer_race",)
-
-
-def test_lines_that_are_not_strong_need_blows() -> None:
-    """Tones at multiples of BPFO, as of a waved race, and blows: 2 m/s² of both, as healthy ones have, and 9."""
-    t = np.arange(round(4.0 * FS)) / FS
-    tones = [np.cos(2 * np.pi * k * ORDERS.bpfo * SHAFT * t + k * k) for k in range(4, 12)]
-    waves = noise(np.sum(tones, axis=0), 1.0)
-    struck = noise(blows(ORDERS.bpfo, duration=4.0), 0.05)
-    for x, verdict in ((waves, "undecided"), (struck, "damaged")):
-        scale = 1.0 / judged(x, unit="m/s^2").evidence["outer_race"].strength.acceleration
-        found, strong = (judged(size * scale * x, unit="m/s^2") for size in (2.0, 9.0))
-        assert found.evidence["outer_race"].strength.acceleration == pytest.approx(2.0)
-        assert (found.verdict, strong.verdict) == (verdict, "damaged")
-        assert ("sound bearings may have" in found.why) == (verdict == "undecided")
-
-
-def test_only_strength_that_no_healthy_bearing_has_accuses_by_itself() -> None:
-    """A healthy 6000 under a light load has 11 m/s² a m/s of its pitch circle: below that the ratio is asked."""
-    x = noise(blows(ORDERS.bpfo, duration=4.0), 0.05)
-    evidence = judged(100.0 * x / x.std(), unit="m/s^2").evidence
-    limits = limits_of(math.pi * br.catalogue["6205"].pitch_diameter * SHAFT)
-
-    def decide(ratio: float, *strong: Part) -> Verdict:
-        given = dict(evidence) | {"outer_race": replace(evidence["outer_race"], ratio=ratio)}
-        return decided(
-            given, ("outer_race",), 0.01, strong=strong, limits=limits, silent=False, impacts=None,
-            wanting=(),
-        )  # fmt: skip
-
-    assert decide(0.04).parts == decide(0.06, "outer_race").parts == ("outer_race",)
-    assert decide(0.06).verdict == "undecided"
-    assert "17 times likelier with it damaged, where 20 times are required" in decide(0.06).why
+    for unit in (None, "m/s^2"):
+        found = judged(10.0 * x, unit=unit)
+        one = found.evidence["outer_race"]
+        assert one.probability < 0.01
+        assert one.strength.depth > 0.5
+        assert one.strength.kurtosis < 3.5
+        assert found.verdict == "undecided"
+        assert "no impacts stand out" in found.why
 
 
 def test_likelihood_decides_where_chance_leaves_doubt() -> None:
-    """Healthy records of the library with lines as likely by chance have ratios from 0.15 on."""
     x = noise(blows(ORDERS.bpfi, duration=4.0), 0.05)
-    evidence = judged(100.0 * x / x.std(), unit="m/s^2").evidence
-    limits = limits_of(math.pi * br.catalogue["6205"].pitch_diameter * SHAFT)
+    evidence = dict(judged(100.0 * x / x.std(), unit="m/s^2").evidence)
+    size = Size(diameter=br.catalogue["6205"].pitch_diameter, rate=SHAFT)
 
-    def decide(chance: float, ratio: float, own: Part | None = None, unit: bool = True) -> Verdict:
-        inner = replace(evidence["inner_race"], probability=chance, ratio=ratio)
-        return decided(
-            dict(evidence) | {"inner_race": inner}, () if own is None else (own,), 0.01, strong=(),
-            limits=limits if unit else None, silent=False, impacts=None, wanting=(),
-        )  # fmt: skip
+    def inner(chance: float, ratio: float, size: Size | None = size, **more: Any) -> Verdict:
+        one = replace(evidence["inner_race"], probability=chance, ratio=ratio)
+        others: dict[Part, Any] = {"inner_race": one, **more}  # type: ignore[dict-item]
+        return decide(evidence | others, size=size)
 
-    assert decide(0.02, 0.05).parts == ("inner_race",)
+    assert inner(0.02, 0.05).parts == ("inner_race",)
     assert (
         "as by chance in 2.0 % of records, and among simulated bearings are 20 times likelier"
-        in decide(0.02, 0.05).why
+        in inner(0.02, 0.05).why
+    )
+    shallow = replace(
+        evidence["outer_race"],
+        probability=1e-4,
+        strength=replace(evidence["outer_race"].strength, depth=0.2),
     )
     assert {
-        decide(0.02, 0.2).verdict,
-        decide(0.04, 0.05).verdict,
-        decide(0.02, 0.05, "ball").verdict,
-        decide(0.02, 0.05, unit=False).verdict,
+        inner(0.02, 0.2).verdict,
+        inner(0.04, 0.05).verdict,
+        inner(0.02, 0.05, outer_race=shallow).verdict,
+        inner(0.02, 0.05, size=None).verdict,
     } == {"undecided"}
 
 
-def test_lines_that_may_be_those_of_a_healthy_race_are_not_said_to_be_chance() -> None:
-    """Of 12 balls of 6 mm on 30 mm 2·BSF is BPFO: faint lines of the race are theirs, too."""
-    x = noise(blows(ORDERS.bpfo, duration=4.0), 0.05)
-    evidence = judged(0.1 * x / x.std(), unit="m/s^2").evidence
-    limits = limits_of(math.pi * br.catalogue["6205"].pitch_diameter * SHAFT)
-    ball = replace(evidence["outer_race"], part="ball", probability=2e-5, ratio=0.01)
-
-    def why(*own: Part, chance: float = 2e-5) -> str:
-        given = dict(evidence) | {"ball": replace(ball, probability=chance)}
-        return decided(
-            given, own, 0.01, strong=(), limits=limits, silent=False, impacts=None, wanting=()
-        ).why
-
-    told = why("outer_race")
-    assert "0.0020 % of records, but may be those of the outer race, which are higher" in told
-    assert "too often to call it damaged" in why("outer_race", chance=0.02)
+def test_impacts_that_come_with_the_cage_are_a_balls() -> None:
+    """Blows at no part's rate while one ball is in the load zone; and by hand: what chance has is no damage."""
+    rng = np.random.default_rng(1)
+    t = np.arange(round(8.0 * FS)) / FS
+    x = np.zeros(t.size)
+    swell = np.maximum(np.cos(2 * np.pi * ORDERS.ftf * SHAFT * t), 0.0) ** 4
+    x[rng.random(t.size) < 8e-3 * swell] = 30.0
+    found = judged(noise(x, 1.0), speed_within=1e-3)
+    assert found.parts == ("ball",)
+    assert "come and go with the cage" in found.why
+    evidence = dict(judged(noise(np.zeros(24_000), 1.0)).evidence)
+    assert decide(evidence, bursts=Bursts(kurtosis=20.0, probability=1e-3)).parts == ("ball",)
+    assert not decide(evidence, bursts=Bursts(kurtosis=20.0, probability=0.02)).parts
 
 
-def test_impacts_at_no_rate_of_the_bearing_leave_it_open() -> None:
-    """A speed that is 3 % off, and the rate of no part: neither accuses, neither clears."""
-    for x, rpm in ((blows(ORDERS.bpfi, 1.0), 1.03 * RPM), (blows(4.31), RPM)):
-        found = judged(noise(x, 0.02), rpm=rpm)
+DRIFTS: dict[str, Callable[[Signal], Signal]] = {
+    "ramp": lambda t: 50.0 * t / t[-1],
+    "step": lambda t: 20.0 * (t > 0.37 * t[-1]),
+    "decay": lambda t: 20.0 * np.exp(-t / 0.3),
+    "wave": lambda t: 50.0 * np.sin(2 * np.pi * 0.3 * SHAFT * t),
+}
+
+
+@pytest.mark.parametrize("drift", DRIFTS)
+def test_a_drift_changes_no_verdict(drift: str) -> None:
+    """Truth: what is slower than the shaft is no vibration of the bearing."""
+    struck, silent = noise(blows(ORDERS.bpfo), 0.3), noise(np.zeros(24_000), 1.0)
+    for x, verdict in ((10.0 * struck / struck.std(), "damaged"), (silent, "healthy")):
+        slow = DRIFTS[drift](np.arange(x.size) / FS)
+        plain, drifted = (judged(y, unit="m/s^2", speed_within=1e-3) for y in (x, x + slow))
+        assert plain.verdict == drifted.verdict == verdict
+        one, other = (found.evidence["outer_race"].strength for found in (plain, drifted))
+        assert other.depth == pytest.approx(one.depth, abs=0.1)
+        assert other.acceleration == pytest.approx(one.acceleration, rel=0.1, abs=0.03)
+
+
+def test_a_drift_is_taken_out_and_the_shafts_orders_stay() -> None:
+    t = np.arange(24_000) / FS
+    wave = np.sin(2 * np.pi * 3.0 * SHAFT * t)
+    left = without_drift(wave + 50.0 * t, FS, SHAFT)
+    assert np.abs(left - wave).max() < 0.25
+    assert np.abs(left - wave)[2000:-2000].max() < 0.02
+
+
+def test_a_narrow_band_clears_nothing() -> None:
+    """Noise below 1 kHz, by a low rate and by a filter, of a 6205: impacts would ring above."""
+    from scipy.signal import butter, resample_poly, sosfilt
+
+    white = noise(np.zeros(48_000), 1.0, seed=5)
+    known: dict[str, Any] = {"speed_within": 1e-3, "false_alarm": 1e-4}
+    low = sosfilt(butter(8, 1000.0, fs=FS, output="sos"), white)
+    slow = resample_poly(white, 1, 6)
+    assert judged(white, **known).verdict == "healthy"
+    for x, fs, edge in ((low, FS, 1200.0), (slow, FS / 6.0, 1000.0)):
+        assert upper_edge(x, fs) == pytest.approx(edge, rel=0.25)
+        found = br.diagnose(x, "6205", RPM, fs=fs, **known)
         assert found.verdict == "undecided"
-        assert "the right bearing, or a longer record: impacts stand out" in found.why
+        assert "a wider band, to 3 kHz and more: this one ends at" in found.why
+    # A bearing twice as large rings half as high.
+    wide = resample_poly(white, 1, 3)
+    assert "a wider band" in br.diagnose(wide, "6205", RPM, fs=FS / 3.0, **known).why
+    assert "a wider band" not in br.diagnose(wide, "6412", RPM, fs=FS / 3.0, **known).why
+
+
+def test_a_nominal_speed_clears_nothing_unless_the_record_shows_it() -> None:
+    white = noise(np.zeros(24_000), 1.0)
+    t = np.arange(white.size) / FS
+    shaft = white + 0.2 * sum(np.cos(2 * np.pi * k * 1.06 * SHAFT * t + k) for k in range(1, 11))
+    assert "the exact speed: the record has no clear lines of a shaft" in judged(white).why
+    assert judged(white, speed_within=1e-3).verdict == "healthy"
+    # The shaft turns 6 % faster than its nominal speed.
+    found = judged(shaft)
+    assert (found.verdict, found.shaft.by) == ("healthy", "record")
+    assert found.shaft.rate == pytest.approx(1.06 * SHAFT, rel=1e-3)
+    assert judged(shaft, speed_within=0.01).shaft.by == "nominal"
+
+
+@pytest.mark.parametrize("slip", [0.96, 0.985, 1.01])
+@pytest.mark.parametrize("part", ["outer_race", "inner_race"])
+def test_one_cage_slips_for_all_parts(part: str, slip: float) -> None:
+    """Truth: balls pass the outer race at Z·s·f_c and the inner race at Z·(f_r − s·f_c)."""
+    orders = {"outer_race": slip * ORDERS.bpfo, "inner_race": 9.0 - slip * ORDERS.bpfo}
+    found = judged(noise(blows(orders[part], SIDEBANDS[part]), 0.3), speed_within=1e-3)
+    assert found.parts == (part,)
+    for name, order in orders.items():
+        one = found.evidence[name]  # type: ignore[index]
+        assert one.factor * one.order == pytest.approx(order, rel=3e-3)
+    assert found.evidence["cage"].factor == pytest.approx(slip, abs=4e-3)
+
+
+def test_what_is_at_the_end_of_a_search_is_not_found() -> None:
+    """A cage 6 % slower than nominal, and a shaft 1.6 % beside a speed that is known within 1 %."""
+    x = noise(blows(0.94 * ORDERS.bpfo), 0.3)
+    assert judged(x, speed_within=1e-3).verdict == "undecided"
+    t = np.arange(x.size) / FS
+    shaft = 0.3 * sum(np.cos(2 * np.pi * k * 1.016 * SHAFT * t + k) for k in range(1, 11))
+    found = judged(noise(np.zeros(x.size), 0.3) + shaft, speed_within=0.01)
+    assert found.shaft.by == "nominal"
+
+
+def test_impacts_at_another_rate_name_the_likely_mistake() -> None:
+    """A speed that is 10 % off, a rate of another bearing, 11 025 for 12 000 Hz, a speed in hertz."""
+    struck = noise(blows(ORDERS.bpfi, 1.0), 0.02)
+    slow = judged(struck, rpm=1.1 * RPM, speed_within=1e-3)
+    assert slow.verdict == "undecided"
+    assert slow.why.startswith("the exact speed, or the right bearing: impacts repeat at 159.")
+    other = judged(noise(blows(br.catalogue["6203"].orders.bpfo), 0.02), speed_within=1e-3)
+    assert other.verdict == "undecided"
+    assert "BPFO of a 6203 (3.054)" in other.why
+    outer = noise(blows(ORDERS.bpfo), 0.02)
+    audio = br.diagnose(outer, "6205", RPM, fs=11_025.0, speed_within=1e-3)
+    assert audio.verdict == "undecided"
+    assert "BPFO with fs=12000" in audio.why
+    t = np.arange(struck.size) / FS
+    shaft = struck + 0.3 * sum(np.cos(2 * np.pi * k * SHAFT * t + k) for k in range(1, 11))
+    hertz = judged(shaft, rpm=SHAFT)
+    assert hertz.verdict == "undecided"
+    assert "29.5 was given, and the record has lines of a shaft at 29." in hertz.why
+
+
+def test_a_changing_speed_is_named() -> None:
+    """Blows of the outer race while the shaft goes from 20 to 40 turns a second."""
+    rng = np.random.default_rng(1)
+    t = np.arange(round(6.0 * FS)) / FS
+    turns = 20.0 * t + 20.0 / 12.0 * t**2
+    x = 0.3 * rng.normal(size=t.size)
+    x[np.searchsorted(turns * ORDERS.bpfo, np.arange(1.0, turns[-1] * ORDERS.bpfo))] += 5.0
+    found = judged(x, rpm=1800.0)
+    assert found.verdict == "undecided"
+    assert "the record over the shaft's angle (ballrace.spectra.by_order)" in found.why
+    steady = judged(noise(blows(4.31, duration=6.0), 0.02))
+    assert "by_order" not in steady.why
 
 
 def test_what_is_asked_for_where_impacts_stand_out() -> None:
     """A run's own bearing and speed are exact; a damaged ball comes to the load once in a turn of the cage."""
-    x = noise(blows(4.31), 0.02)
     known = unexplained(57.4, exact=True, cage=False)
     assert known == (
         "a longer record: impacts stand out (kurtosis 57), but at no rate of this bearing"
     )
     asked = unexplained(57.4, exact=False, cage=False)
     assert asked == f"the exact speed, the right bearing, or {known}"
-    assert judged(x).why.startswith("the exact speed, the right bearing, or a longer record")
     assert unexplained(None, exact=True, cage=True) is None
-    at_cage = judged(noise(blows(ORDERS.ftf, duration=8.0), 0.02))
-    assert at_cage.evidence["cage"].probability < 0.01
-    assert "only at the cage's rate, as a damaged ball may have" in at_cage.why
+    at_cage = unexplained(57.4, exact=False, cage=True)
+    assert at_cage is not None
+    assert "only at the cage's rate, as a damaged ball may have" in at_cage
 
 
 def test_an_order_next_to_a_whole_one_needs_turns() -> None:
@@ -360,7 +463,7 @@ def test_an_order_next_to_a_whole_one_needs_turns() -> None:
     orders = br.catalogue["6309"].orders
     assert orders.bpfi == pytest.approx(4.963, abs=1e-3)
     x = noise(np.zeros(round(20.0 * FS)), 1.0)
-    short, long = judged(x[:24_000], "6309"), judged(x, "6309")
+    short, long = (judged(y, "6309", speed_within=1e-3) for y in (x[:24_000], x))
     assert short.verdict == "undecided"
     assert "race's order" in short.why
     assert f"at least {8.0 / (5.0 - orders.bpfi) / SHAFT:.3g} s" in short.why
@@ -377,23 +480,22 @@ def test_an_exact_speed_separates_an_inner_race_from_the_shaft(name: str, seed: 
     order, long = br.catalogue[name].orders.bpfi, 40.0 / SHAFT
     assert 4.9 < order < 4.95
     x = noise(blows(order, 1.0, seed=seed, duration=long), 0.1, seed)
-    open_, found = judged(x, name), judged(x, name, speed_within=1e-3)
-    assert open_.shaft.rate == pytest.approx(0.99 * SHAFT, rel=1e-3)
-    assert (open_.verdict, "exact speed" in open_.why) == ("undecided", True)
-    assert (found.verdict, found.parts) == ("damaged", ("inner_race",))
+    for within in (None, 0.01, 1e-3):
+        found = judged(x, name, speed_within=within)
+        assert (found.verdict, found.parts) == ("damaged", ("inner_race",))
     assert found.shaft.rate == pytest.approx(SHAFT, rel=1.001e-3)
     # The speed of a scene is exact.
     scene = br.bearing(name, speed_rpm=RPM)
     run = br.Channel(x=x, fs=FS, shaft=SHAFT, scene=scene)
     assert br.diagnose(run).parts == ("inner_race",)
-    assert br.diagnose(run, speed_within=0.01).verdict == "undecided"
     shaft = noise(blows(1.0, seed=seed, duration=long), 0.1, seed)
     assert judged(shaft, name, speed_within=1e-3).verdict == "undecided"
 
 
 def test_a_velocity_clears_nothing() -> None:
     x = noise(np.zeros(24_000), 1.0)
-    found = br.diagnose(br.Channel(x=x, fs=FS, unit="m/s^2").to("mm/s"), "6205", RPM)
+    velocity = br.Channel(x=x, fs=FS, unit="m/s^2").to("mm/s")
+    found = br.diagnose(velocity, "6205", RPM)
     assert found.verdict == "undecided"
     assert "an acceleration" in found.why
 
@@ -407,7 +509,7 @@ def test_shallow_lines_leave_it_open() -> None:
     found = judged(x)
     assert found.evidence["outer_race"].probability < 1e-3
     assert found.verdict == "undecided"
-    assert "no impacts stand out" in found.why
+    assert "but modulate the vibration by" in found.why
 
 
 def shaken(kind: str, rng: np.random.Generator, duration: float = 2.0) -> Signal:
@@ -450,7 +552,10 @@ def most(count: int, rate: float) -> int:
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_nothing_of_the_kind_is_damaged(kind: str) -> None:
-    verdicts = [judged(shaken(kind, np.random.default_rng([7, k]))).verdict for k in range(8)]
+    # The speed is known, but for the shaft's own orders, 0.4 % beside it.
+    within = None if kind.startswith("shaft") else 1e-3
+    records = (shaken(kind, np.random.default_rng([7, k])) for k in range(8))
+    verdicts = [judged(x, speed_within=within).verdict for x in records]
     assert verdicts.count("damaged") <= most(8, 0.01)
     assert kind != "clipped" or set(verdicts) == {"undecided"}
     # Noise that the shaft swells is no blows: 3 E[a⁴]/E[a²]² of a = 1 + cos(φ)/2 is 4.2.
@@ -535,7 +640,7 @@ REFUSED: dict[str, Callable[[], object]] = {
     "bearing.bpfo = 0.0": lambda: judged(X, vars(ORDERS) | {"bpfo": 0.0}),
     "speed_rpm = None": lambda: br.diagnose(X, "6205", fs=FS),
     "speed_rpm = 0.0": lambda: judged(X, rpm=0.0),
-    "speed_within = 0.02": lambda: judged(X, speed_within=0.02),
+    "speed_within = 0.1": lambda: judged(X, speed_within=0.1),
     "speed_within = nan": lambda: judged(X, speed_within=math.nan),
     "fs = None": lambda: br.diagnose(X, "6205", RPM),
     "false_alarm = 0.5": lambda: judged(X, false_alarm=0.5),

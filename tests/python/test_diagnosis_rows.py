@@ -49,7 +49,9 @@ def test_rows_with_the_same_orders_are_judged_as_one() -> None:
 
 
 def test_rows_share_the_rate_of_false_alarms() -> None:
-    found = judged(np.random.default_rng(3).normal(size=24_000), UNLIKE, false_alarm=0.02)
+    found = judged(
+        np.random.default_rng(3).normal(size=24_000), UNLIKE, false_alarm=0.02, speed_within=1e-3
+    )
     assert found.verdict == "healthy"
     assert found.false_alarm == 0.01
 

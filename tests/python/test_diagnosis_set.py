@@ -16,19 +16,18 @@ import numpy as np
 import pytest
 
 import ballrace as br
+import verdict_fit
 
 if TYPE_CHECKING:
     from types import ModuleType
 
-BENCHES = Path(__file__).parents[2] / "benches"
 NUMBERS = (133, 136, 140, 137)
 """Runs of the set that are fast: healthy and waved; outer race, inner race and outer race with spalls."""
 
 
 @pytest.fixture
-def module(monkeypatch: pytest.MonkeyPatch) -> ModuleType:
+def module() -> ModuleType:
     """The program that makes and judges the set."""
-    monkeypatch.syspath_prepend(str(BENCHES))
     return importlib.import_module("verdict_set")
 
 
@@ -71,7 +70,7 @@ def test_runs_of_a_bearing_are_half_healthy_and_always_the_same(module: ModuleTy
     drawn = list(module.cases(bearings=1))
     assert [each.part for each in drawn].count(None) == len(drawn) // 2
     assert drawn == list(module.cases(bearings=1))
-    library = set(np.unique(br.diagnosis.library.library()["bearing"]).tolist())
+    library = set(np.unique(verdict_fit.library()["bearing"]).tolist())
     chosen = {name for seed, names in module.SETS.items() if seed != module.SEED for name in names}
     assert not (library | chosen) & set(module.SETS[module.SEED])
 

@@ -37,7 +37,7 @@ def test_lines_of_a_healthy_run_are_no_damage() -> None:
     healthy = br.diagnose(run(500.0, None, 0.0, 1.0))
     assert healthy.evidence["outer_race"].probability < 1e-3
     assert healthy.verdict == "healthy"
-    assert "unit is right: a loaded healthy bearing has such lines" in healthy.why
+    assert "a loaded healthy bearing has such lines" in healthy.why
     spalled = br.diagnose(run(500.0, "outer_race", 0.8, 1.0))
     assert spalled.parts == ("outer_race",)
     ratio = (spalled.evidence["outer_race"].strength.acceleration

@@ -61,6 +61,30 @@ def test_a_read_run_reports_the_same(out: br.Signals, tmp_path: Path) -> None:
     assert text_of(tmp_path / "a.html") == text_of(tmp_path / "b.html")
 
 
+def test_it_begins_with_the_verdict(tmp_path: Path) -> None:
+    """Of a record long enough, as the diagnosis of the shown column has it; else with what it lacks."""
+    defect = br.defects.spall(on="inner_race", width_mm=2.2, edge_radius_mm=0.05)
+    scene = br.bearing("6205", radial_load=60.0, speed_rpm=1797.0, defects=defect)
+    out = br.simulate(scene, duration=0.8, fs=25_000.0)
+    for column, words_ in (("outer.ay", "vertical acceleration"), ("outer.ax", "horizontal acc")):
+        out.report(tmp_path / "r.html", columns=[column])
+        begin = text_of(tmp_path / "r.html").removeprefix("6205 6205 ").partition(" samples at ")[0]
+        found = br.diagnose(out, column=column)
+        assert found.verdict == "damaged"
+        assert begin.startswith(f"Verdict: damaged, inner race. I{found.why[1:]}. Width ")
+        assert f"rests on one signal, {words_}" in begin
+        assert column in begin
+
+
+def test_a_run_of_two_rows_has_the_verdict_on_both(tmp_path: Path) -> None:
+    """What the diagnosis notes of the other row stands there, too."""
+    out = br.simulate(br.presets.wheel_bearing(), duration=0.02)
+    out.report(tmp_path / "r.html")
+    begin = text_of(tmp_path / "r.html").partition(" samples at ")[0]
+    assert "Verdict: undecided. What would decide: a longer record" in begin
+    assert "Rows 0 and 1 have the same orders" in begin
+
+
 def test_columns_and_title(out: br.Signals, tmp_path: Path) -> None:
     out.report(tmp_path / "r.html", columns=["outer.ax", "inner.ay"], title="A <b> & c")
     text = text_of(tmp_path / "r.html")
@@ -197,10 +221,23 @@ ODD: dict[str, dict[str, object]] = {
 }  # fmt: skip
 
 
+NO_VERDICT = {
+    "held": "no acceleration of a ring was recorded",
+    "torque": "the speed is not constant",
+    "still": "the rings do not turn against each other",
+}
+
+
 @pytest.mark.parametrize("name", ODD)
 @pytest.mark.parametrize("duration", [4e-5, 0.02])
 @pytest.mark.filterwarnings("ignore::ballrace.SceneWarning")
 def test_every_scene_that_runs_has_a_report(name: str, duration: float, tmp_path: Path) -> None:
     out = br.simulate(br.bearing("6205").replace(ODD[name]), duration=duration, settle=0.0)
     out.report(tmp_path / "r.html")
-    assert "Provenance" in text_of(tmp_path / "r.html")
+    text = text_of(tmp_path / "r.html")
+    assert "Provenance" in text
+    why = NO_VERDICT.get(name, "record = an array of shape" if duration < 1e-3 else "")
+    begin = (
+        f"No verdict: {why}" if why else "Verdict: undecided. What would decide: a longer record"
+    )
+    assert begin in text.partition(" samples at ")[0]

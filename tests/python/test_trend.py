@@ -23,7 +23,7 @@ def taken(k: int, height: float) -> NDArray[np.float64]:
     """A second of noise with blows at the rate of the inner race."""
     x = np.random.default_rng(k).normal(size=12_000)
     x[np.arange(0, x.size, PERIOD).astype(int)] += height
-    return x
+    return 3.0 * x
 
 
 def _with(given: dict[str, Any], others: dict[str, Any]) -> dict[str, Any]:
@@ -32,7 +32,9 @@ def _with(given: dict[str, Any], others: dict[str, Any]) -> dict[str, Any]:
 
 def followed(heights: list[float], **options: Any) -> br.Trend:
     records = (taken(k, height) for k, height in enumerate(heights))
-    return br.trend(records, "6205", RPM, **_with({"fs": FS, "unit": "m/s^2"}, options))
+    return br.trend(
+        records, "6205", RPM, **_with({"fs": FS, "unit": "m/s^2", "speed_within": 1e-3}, options)
+    )
 
 
 def test_the_first_of_two_records_with_blows_departs() -> None:
@@ -43,6 +45,39 @@ def test_the_first_of_two_records_with_blows_departs() -> None:
     assert found.table["parts"].to_list()[15:] == ["inner_race"] * 4
     assert found.table["verdict"].to_list()[:12] == ["healthy"] * 12
     assert "record 15 at 15 departs" in repr(found)
+
+
+def snapshots(seed: int, height: float, late: int, count: int = 150) -> list[NDArray[np.float64]]:
+    """Return records of a tenth of a second, three turns, in which blows of the inner race are lost in noise."""
+    rng = np.random.default_rng(seed)
+    found = []
+    for k in range(count):
+        x = rng.normal(size=1200)
+        first = rng.uniform(0.0, PERIOD)
+        x[np.arange(first, x.size - 1.0, PERIOD).astype(int)] += height * (k >= late)
+        found.append(x)
+    return found
+
+
+def test_short_records_are_pooled_so_that_lines_depart() -> None:
+    """Blows of five deviations in records of three turns: none has a verdict, lines of the last 20 depart."""
+    found = br.trend(snapshots(1, 5.0, 110), "6205", RPM, fs=FS, unit="m/s^2", baseline=100)
+    assert found.pooled == 21
+    assert set(found.table["verdict"]) == {"undecided"}
+    lines = found.table["inner_race.lines"].to_numpy()
+    assert np.isnan(lines[:20]).all()
+    assert not np.isnan(lines[20:]).any()
+    assert 110 <= found.departures["inner_race.lines"] <= 130
+    assert lines[-1] > lines[60:110].max() + 1.0
+    assert "outer_race.lines" not in found.departures
+    # Few records of a baseline make small groups.
+    assert br.trend(snapshots(1, 0.0, 0, 20), "6205", RPM, fs=FS, baseline=9).pooled == 3
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_pooled_lines_of_healthy_snapshots_do_not_depart(seed: int) -> None:
+    found = br.trend(snapshots(10 + seed, 0.0, 0), "6205", RPM, fs=FS, unit="m/s^2", baseline=60)
+    assert not {name for name in found.departures if name.endswith(".lines")}
 
 
 def test_a_healthy_bearing_does_not_depart() -> None:

@@ -200,7 +200,9 @@ def test_a_measured_hub_is_judged_by_both_speeds(inner: float, outer: float) -> 
     assert {"BPFO − f_o", "BPFO + f_o"} & lines
     # The same by rates that know the speeds, and by a scene whose speeds are others.
     by_rates = br.diagnose(x, rates, **options)  # type: ignore[arg-type]
-    assert by_rates.evidence["outer_race"].z == pytest.approx(found.evidence["outer_race"].z)
+    assert by_rates.evidence["outer_race"].z == pytest.approx(
+        found.evidence["outer_race"].z, rel=0.02
+    )
     other = br.bearing("6205", outer_rpm=100.0)
     assert br.diagnose(x, other, inner, outer_rpm=outer, fs=16_000.0).parts == ("outer_race",)
     trended = br.trend([x] * 5, "6205", inner, outer_rpm=outer, fs=16_000.0, baseline=3)

@@ -37,7 +37,7 @@ def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:
     add_speeds(found, "that of the file")
     found.add_argument(
         "--speed-within", type=float, metavar="SHARE",
-        help="how far the speed may be off, 0 to 0.01 (default: 0.01, of a run 0)",
+        help="how far the speed may be off, 0 to 0.08 (default: as the record shows it, of a run 0)",
     )  # fmt: skip
     found.add_argument(
         "--fs", type=float, metavar="HZ", help="sampling rate, where the file does not have it"

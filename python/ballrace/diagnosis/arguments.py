@@ -14,7 +14,7 @@ from ..frequencies.operating import FaultFrequencies, ring_rates, scene_rates
 from ..scene import Scene
 from ..spectra.checks import checked_signal
 from .kinematics import kinematics_of
-from .shaft import WITHIN
+from .shaft import FURTHEST
 
 if TYPE_CHECKING:
     from ..channel import Channel
@@ -106,12 +106,12 @@ def nominal_rate(channel: Channel, speed_rpm: float | None) -> float:
     return abs(real(speed_rpm)) / 60.0
 
 
-def known_within(channel: Channel, *, given: bool, speed_within: float | None) -> float:
-    """Return how far the speed may be off, as a part of it; by default not at all where a run's own is taken."""
+def known_within(channel: Channel, *, given: bool, speed_within: float | None) -> float | None:
+    """Return how far the speed may be off, as a part of it, 0 where it is a run's own; None by default."""
     if speed_within is None:
-        return 0.0 if not given and channel.scene is not None else WITHIN
-    if not 0.0 <= real(speed_within) <= WITHIN:
-        allowed = f"a part of the speed, 0 to {WITHIN:g}, or None"
+        return 0.0 if not given and channel.scene is not None else None
+    if not 0.0 <= real(speed_within) <= FURTHEST:
+        allowed = f"a part of the speed, 0 to {FURTHEST:g}, or None"
         raise SceneError("speed_within", repr(speed_within), allowed)
     return real(speed_within)
 

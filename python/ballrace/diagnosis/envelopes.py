@@ -25,6 +25,7 @@ __all__ = [
     "half_spectrum",
     "levels_of",
     "line_spectrum",
+    "reach_of",
     "without_rings",
 ]
 
@@ -37,8 +38,14 @@ _EDGES = np.geomspace(0.03, 0.95, 7)
 _AROUND = 0.6
 """Width of the running median under a line, in parts of the shaft's rate: no two lines of one kind within it."""
 
+_LEAST_AROUND = 15
+"""Bins of that median in records of some turns, in which a line is three bins wide."""
+
 _FEWEST = 20.0
 """Turns of a slower ring in a record below which its multiples are too close to be taken out."""
+
+_FADED = 0.02
+"""Part of a record over which it is faded in and out, both together."""
 
 _LINE = 3.0
 """Half of the width of a line under a Hann window, with some slip of the shaft [bins]."""
@@ -90,17 +97,34 @@ class Levels:
         return self._hiding(hidden)
 
     def without_lines(self, lines: NDArray[np.float64], width: float) -> Levels:
-        """Return the levels with nothing above its surroundings within ``width`` parts of some lines [Hz]."""
-        hidden = self.hidden.copy()
+        """Return the levels with others from beside in the place of some lines [Hz], ``width`` parts of them wide.
+
+        What is there then is as high as what chance has beside it, so that combs of a null may cross it.
+        """
+        taken = np.zeros(self.hidden.size, dtype=bool)
         for f in lines[lines > 0.0]:
-            reach = _LINE + width * f * self.duration
-            low, high = (f * self.duration - reach, f * self.duration + reach)
-            hidden[max(math.ceil(low), 0) : max(math.floor(high) + 1, 0)] = True
-        return self._hiding(hidden)
+            taken[reach_of(f, self.duration, width)] = True
+        left = np.flatnonzero(~(taken | self.hidden))
+        if left.size == 0:
+            return self._hiding(self.hidden | taken)
+        gone = np.flatnonzero(taken & ~self.hidden)
+        begins = np.maximum.accumulate(np.where(np.diff(gone, prepend=-2) > 1, gone, 0))
+        # Those that follow, as many of them as were taken.
+        beside = (np.searchsorted(left, gone) + gone - begins) % left.size
+        db = self.db.copy()
+        db[:, gone] = self.db[:, left[beside]]
+        return Levels(db=db, duration=self.duration, hidden=self.hidden)
 
     def _hiding(self, hidden: NDArray[np.bool_]) -> Levels:
         db = np.where(hidden, np.minimum(self.db, 0.0), self.db)
         return Levels(db=db, duration=self.duration, hidden=hidden)
+
+
+def reach_of(f: float, duration: float, width: float = 0.0) -> slice:
+    """Return the bins of a line [Hz] in a spectrum of a record of some seconds, within ``width`` parts of it."""
+    reach = _LINE + width * f * duration
+    low, high = (f * duration - reach, f * duration + reach)
+    return slice(max(math.ceil(low), 0), max(math.floor(high) + 1, 0))
 
 
 def bands_of(fs: float, held: float) -> list[tuple[float, float]]:
@@ -152,10 +176,15 @@ def envelope_spectra(
 
 
 def half_spectrum(x: NDArray[np.float64]) -> NDArray[np.complex128]:
-    """Return the transform of a signal without its mean, below fs/2."""
-    from scipy.fft import rfft
+    """Return the transform of a signal without its mean, below fs/2.
 
-    found: NDArray[np.complex128] = rfft(x - x.mean())[: x.size // 2]
+    The signal is faded in and out: a transform repeats it, and where slow vibration ends otherwise than it
+    began, that step would be an impact.
+    """
+    from scipy.fft import rfft
+    from scipy.signal.windows import tukey
+
+    found: NDArray[np.complex128] = rfft((x - x.mean()) * tukey(x.size, _FADED))[: x.size // 2]
     return found
 
 
@@ -188,7 +217,7 @@ def levels_of(value: NDArray[np.float64], duration: float, shaft: float) -> Leve
     """Return spectra as levels over their running medians, within :data:`FLOOR` and :data:`CEILING`."""
     from scipy.ndimage import median_filter
 
-    around = max(int(_AROUND * shaft * duration) | 1, 3)
+    around = max(int(_AROUND * shaft * duration) | 1, _LEAST_AROUND)
     db = np.empty(value.shape)
     for row, spectrum in zip(db, value, strict=True):
         floor = median_filter(spectrum, around)

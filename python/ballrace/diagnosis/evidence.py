@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from .combs import WIDTH, Part, comb_of, role_of
-from .null import ACCUSED, found_of, levels_by_chance, null_orders, probability
+from .combs import WIDTH, Part, role_of
+from .null import ACCUSED, levels_by_chance, probability
 from .strength import Strength, strength_at
 
 if TYPE_CHECKING:
@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from .envelopes import Levels
     from .kinematics import Kinematics
     from .null import Found
+    from .search import Search
     from .strength import Envelopes
 
 __all__ = ["Evidence", "Line", "evidence_of"]
@@ -106,27 +107,25 @@ class Evidence:
 
 
 def evidence_of(
-    part: Part,
+    search: Search,
     envelopes: Envelopes,
     *,
-    levels: Levels,
     kinematics: Kinematics,
     shaft: float,
-    seed: int,
 ) -> Evidence:
-    """Return the evidence for a part, at a shaft's rate [Hz]."""
-    comb = comb_of(part, kinematics.orders)
-    null = null_orders(kinematics.orders, part, np.random.default_rng([seed, len(part)]))
-    found = found_of(comb, levels, shaft, null)
-    chance = levels_by_chance(comb, levels, shaft, null, _SHARES)[:, found.row]
+    """Return the evidence for a part by the search for its comb, at a shaft's rate [Hz]."""
+    part, comb, found = search.part, search.comb, search.found
+    factor = float(comb.factors[found.at])
+    chance = levels_by_chance(comb, search.null_levels, shaft, search.null, _SHARES)[:, found.row]
+    levels = search.levels
     lines = comb.frequencies(np.array([comb.order * shaft]), shaft)[:, 0]
     at = np.clip(np.rint(lines * levels.duration).astype(int), 0, levels.hidden.size - 1)
     return Evidence(
         part=part,
         role=role_of(part, kinematics.orders),
         order=comb.order,
-        factor=found.factor,
-        contact_angle=_angle(part, comb.order * found.factor, kinematics),
+        factor=factor,
+        contact_angle=_angle(part, comb.order * factor, kinematics),
         z=found.z,
         probability=probability(found.z, len(ACCUSED)),
         band=envelopes.bands[found.row % len(envelopes.bands)],
@@ -135,7 +134,7 @@ def evidence_of(
         height=found.height,
         lines=_speaking(comb, levels, shaft, found, float(chance[1])),
         hidden=float(levels.hidden[at].mean()),
-        strength=strength_at(envelopes, comb.order * found.factor * shaft),
+        strength=strength_at(envelopes, comb.order * factor * shaft, search.taken),
     )
 
 
@@ -151,7 +150,9 @@ def _speaking(
 ) -> tuple[Line, ...]:
     lines = []
     nominal = comb.frequencies(np.array([comb.order * shaft]), shaft)[:, 0]
-    moved = comb.frequencies(np.array([comb.order * found.factor * shaft]), shaft)[:, 0]
+    moved = comb.frequencies(np.array([comb.order * float(comb.factors[found.at]) * shaft]), shaft)[
+        :, 0
+    ]
     for line, expected, near in zip(comb.lines, nominal.tolist(), moved.tolist(), strict=True):
         at, level = _summit(levels, found.row, near)
         if level > above:

@@ -7,16 +7,18 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .._units import VELOCITIES
+from .upper import needed_edge, upper_edge
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..channel import Channel
     from .kinematics import Kinematics
+    from .shaft import ShaftRate
 
-__all__ = ["HELD", "lack_of", "notes_of", "unexplained", "wanting_of"]
+__all__ = ["FEWEST_TURNS", "HELD", "lack_of", "notes_of", "unclipped", "unexplained", "wanting_of"]
 
-_TURNS = 20.0
+FEWEST_TURNS = 20.0
 """Turns of the shaft below which the running median under a line has too few bins for a null."""
 
 HELD = 2.0
@@ -41,8 +43,9 @@ def lack_of(channel: Channel, shaft: float, kinematics: Kinematics, bands: int) 
     turns = channel.n_samples / channel.fs * shaft
     if not channel.x.std() > 1e-12 * np.abs(channel.x).max():
         return "a signal: this one is silent"
-    if turns < _TURNS:
-        return f"a longer record, at least {_TURNS / shaft:.3g} s: this one has {turns:.3g} turns of the shaft"
+    if turns < FEWEST_TURNS:
+        longer = f"a longer record, at least {FEWEST_TURNS / shaft:.3g} s"
+        return f"{longer}: this one has {turns:.3g} turns of the shaft"
     if not bands:
         needed = 2.0 * HELD * kinematics.orders.bpfi * shaft / 0.92
         return (
@@ -51,14 +54,57 @@ def lack_of(channel: Channel, shaft: float, kinematics: Kinematics, bands: int) 
     return None
 
 
-def wanting_of(channel: Channel, shaft: float, kinematics: Kinematics, within: float) -> list[str]:
-    """Return what a record lacks for a statement that nothing is damaged, its speed known within a part of it."""
-    found = [*_unclipped(channel.x), *_long_enough(channel, shaft, kinematics, within)]
+def wanting_of(
+    channel: Channel, shaft: ShaftRate, kinematics: Kinematics, within: float | None, impacts: str | None
+) -> list[str]:  # fmt: skip
+    """Return what a record lacks for a statement that nothing is damaged, the gravest first.
+
+    Parameters
+    ----------
+    channel : Channel
+        Record.
+    shaft : ShaftRate
+        Rate of the shaft, and whether the record shows it.
+    kinematics : Kinematics
+        Bearing.
+    within : float, optional
+        How far the speed may be off, as a part of it.
+    impacts : str, optional
+        What would explain impacts that stand out.
+    """
+    found = []
     if channel.unit in VELOCITIES:
         found.append(
             f"an acceleration: this is a velocity in {channel.unit}, in which ringing after impacts is weak"
         )
+    found += _reaching(channel, kinematics)
+    found += [] if impacts is None else [impacts]
+    found += _long_enough(channel, shaft.rate, kinematics, within)
+    if shaft.by == "nominal" and (within is None or within > _EXACT):
+        found.append(
+            f"the exact speed: the record has no clear lines of a shaft at {60.0 * shaft.nominal:.5g} 1/min "
+            f"(speed_within={_EXACT:g} or less where that is measured)"
+        )
     return found
+
+
+def _reaching(channel: Channel, kinematics: Kinematics) -> list[str]:
+    """Require a band that holds what impacts excite, unless the record is a run's."""
+    if channel.is_run:
+        return []
+    row = kinematics.row
+    edge = upper_edge(channel.x, channel.fs)
+    needed = needed_edge(None if row is None else row.pitch_diameter)
+    if edge >= needed:
+        return []
+    return [
+        f"a record with a wider band, to {_khz(needed)} and more: this one ends at {_khz(edge)}, and impacts "
+        "ring above"
+    ]
+
+
+def _khz(f: float) -> str:
+    return f"{f / 1e3:.2g} kHz" if f < 10e3 else f"{f / 1e3:.0f} kHz"
 
 
 def unexplained(kurtosis: float | None, *, exact: bool, cage: bool) -> str | None:
@@ -86,7 +132,8 @@ def unexplained(kurtosis: float | None, *, exact: bool, cage: bool) -> str | Non
     return f"{needed}: impacts stand out (kurtosis {kurtosis:.0f}), but {at}"
 
 
-def _unclipped(x: NDArray[np.float64]) -> list[str]:
+def unclipped(x: NDArray[np.float64]) -> list[str]:
+    """Require a record that no rail of the logger has cut."""
     at_rails = np.count_nonzero((x == x.max()) | (x == x.min()))
     if at_rails > max(_CLIPPED * x.size, 8):
         return ["a record within the logger's range: this one is clipped"]
@@ -94,7 +141,7 @@ def _unclipped(x: NDArray[np.float64]) -> list[str]:
 
 
 def _long_enough(
-    channel: Channel, shaft: float, kinematics: Kinematics, within: float
+    channel: Channel, shaft: float, kinematics: Kinematics, within: float | None
 ) -> list[str]:
     """Require more turns where an order of a race is so near an integer that the shaft's lines hide its own."""
     orders = kinematics.orders
@@ -110,7 +157,11 @@ def _long_enough(
     if channel.n_samples / channel.fs * shaft * apart >= _APART:
         return []
     longer = f", at least {_APART / apart / shaft:.3g} s" if apart > 1e-3 else ""
-    exact = ", or for damage to show the exact speed (speed_within)" if within > _EXACT else ""
+    exact = (
+        ", or for damage to show the exact speed (speed_within)"
+        if within is None or within > _EXACT
+        else ""
+    )
     return [
         f"a longer record{longer}{exact}: the {part} race's order {order:.3f} is too near "
         f"the shaft's {near:g}"
@@ -120,7 +171,7 @@ def _long_enough(
 def notes_of(channel: Channel, kinematics: Kinematics) -> tuple[str, ...]:
     """Return the warnings of the record, and why the strength of its lines was not judged."""
     notes = list(channel.warnings)
-    if _unclipped(channel.x) and not any("clipped" in note for note in notes):
+    if unclipped(channel.x) and not any("clipped" in note for note in notes):
         notes.append("the record is clipped: levels, lines and impacts are larger than recorded")
     if channel.unit != "m/s^2":
         known = f"{channel.unit} is no acceleration; give the record of one"

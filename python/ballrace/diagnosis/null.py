@@ -13,14 +13,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .combs import PARTS, WIDTH, comb_of
+from .envelopes import FLOOR
 from .kinematics import LEAST
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
-
-    from numpy.typing import NDArray
 
     from ..frequencies.kinematic import Orders
     from .combs import Comb
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "ACCUSED",
+    "ByChance",
     "Found",
     "found_of",
     "largest_z",
@@ -69,6 +70,28 @@ _GUMBEL = 0.36651, 0.76705
 """Median, and median distance from it, of the standard Gumbel distribution."""
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class ByChance:
+    """Heights of the null's combs: median and spread in each spectrum, and of the largest score over all spectra.
+
+    Attributes
+    ----------
+    middle, spread : ndarray, shape (rows,)
+        Of the heights, a row a family of lines and a spectrum [dB].
+    centre, deviation : float
+        Of the largest of (height − middle)/spread.
+    """
+
+    middle: NDArray[np.float64]
+    spread: NDArray[np.float64]
+    centre: float
+    deviation: float
+
+    def height_at(self, z: float) -> NDArray[np.float64]:
+        """Return the height with which a comb has a z in each row [dB], shape (rows,)."""
+        return self.middle + self.spread * (self.centre + self.deviation * z)
+
+
 @dataclass(frozen=True, kw_only=True)
 class Found:
     """A comb beside its null.
@@ -79,16 +102,19 @@ class Found:
         How far it stands above the null's median, in the null's standard deviations.
     row : int
         Spectrum in which it stands out most.
-    factor : float
-        Its order over the nominal one.
+    at : int
+        Which of the comb's factors it has there.
     height : float
         Mean level of its lines there [dB].
+    chance : ByChance
+        What it is compared with.
     """
 
     z: float
     row: int
-    factor: float
+    at: int
     height: float
+    chance: ByChance
 
 
 def null_orders(orders: Orders, part: str, rng: np.random.Generator) -> NDArray[np.float64]:
@@ -115,23 +141,65 @@ def _is_near(orders: NDArray[np.float64], turns: float) -> NDArray[np.bool_]:
     return np.asarray(apart < _OF_SHAFT * min(turns, 1.0))
 
 
-def found_of(comb: Comb, levels: Levels, shaft: float, null: NDArray[np.float64]) -> Found:
-    """Return a comb beside the null's [orders]."""
-    by_chance = np.concatenate(comb.heights(levels, null * shaft, shaft).max(axis=-1))
+def found_of(
+    comb: Comb,
+    levels: Levels,
+    shaft: float,
+    null: NDArray[np.float64],
+    *,
+    null_levels: Levels,
+    near: NDArray[np.bool_] | None = None,
+) -> Found:
+    """Return a comb beside the null's.
+
+    Parameters
+    ----------
+    comb : Comb
+        The comb.
+    levels : Levels
+        Where it is looked for.
+    shaft : float
+        Rate of the shaft [Hz].
+    null : ndarray, shape (n,)
+        Orders of the null.
+    null_levels : Levels
+        Where the null's combs are.
+    near : ndarray of bool, optional
+        Which of the comb's factors are tried, where they are known; by default all, of which one counts where
+        lines stand higher than at both of its neighbours. What rises up to the end of a search is not found.
+    """
     tried = np.concatenate(comb.heights(levels, np.array([comb.order * shaft]), shaft)[:, :, 0])
-    middle = np.median(by_chance, axis=1, keepdims=True)
-    spread = _SPREAD * np.median(np.abs(by_chance - middle), axis=1, keepdims=True) + _LEAST
-    scores = ((by_chance - middle) / spread).max(axis=0)
-    own = (tried - middle) / spread
-    row, factor = np.unravel_index(int(np.argmax(own)), own.shape)
+    by_chance = _highest(np.concatenate(comb.heights(null_levels, null * shaft, shaft)), near)
+    middle = np.median(by_chance, axis=1)
+    spread = _SPREAD * np.median(np.abs(by_chance - middle[:, np.newaxis]), axis=1) + _LEAST
+    scores = ((by_chance - middle[:, np.newaxis]) / spread[:, np.newaxis]).max(axis=0)
     centre = float(np.median(scores))
-    deviation = _SPREAD * float(np.median(np.abs(scores - centre)))
+    deviation = max(_SPREAD * float(np.median(np.abs(scores - centre))), 1e-9)
+    score = (_summits(tried, near) - middle[:, np.newaxis]) / spread[:, np.newaxis]
+    row, at = np.unravel_index(int(np.argmax(score)), score.shape)
     return Found(
-        z=(float(own.max()) - centre) / max(deviation, 1e-9),
+        z=(float(score.max()) - centre) / deviation,
         row=int(row) % levels.db.shape[0],
-        factor=float(comb.factors[factor]),
-        height=float(tried[row, factor]),
+        at=int(at),
+        height=float(tried[row, at]),
+        chance=ByChance(middle=middle, spread=spread, centre=centre, deviation=deviation),
     )
+
+
+def _highest(heights: NDArray[np.float64], near: NDArray[np.bool_] | None) -> NDArray[np.float64]:
+    found: NDArray[np.float64] = _summits(heights, near).max(axis=-1)
+    return found
+
+
+def _summits(heights: NDArray[np.float64], near: NDArray[np.bool_] | None) -> NDArray[np.float64]:
+    """Return heights over factors where they count, elsewhere the floor of levels."""
+    if near is not None:
+        return np.where(near, heights, FLOOR)
+    inner = heights[..., 1:-1]
+    found = np.full_like(heights, FLOOR)
+    tops = (inner >= heights[..., :-2]) & (inner >= heights[..., 2:])
+    found[..., 1:-1] = np.where(tops, inner, FLOOR)
+    return found
 
 
 def probability(z: float, of: int = 1) -> float:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from ..report import Page
 from ..report.words import degrees, number
 from .picture import picture
-from .result import capital, header_of, reason, width_of
+from .result import capital, header_of, headline, reason, width_of
 from .size_picture import size_picture
 from .verdict import NAMES
 
@@ -19,16 +19,17 @@ __all__ = ["diagnosis_page"]
 _METHOD = (
     "Prewhitening by the cepstrum, and over a running mean as wide as the shaft's rate; spectra of the squared "
     "envelope in overlapping bands, over their medians. For each part the mean level of its lines, the largest "
-    "over a common factor of 0.985 to 1.015 (of balls 0.98 to 1.02) and over the bands; z against the same of a "
-    "thousand combs of this record at orders that no part has; a Gumbel distribution makes it a probability."
+    "over speeds of the cage of 0.955 to 1.015 times the nominal one (of balls orders of 0.98 to 1.02) and over "
+    "the bands; z against the same of a thousand combs of this record at orders that no part has; a Gumbel "
+    "distribution makes it a probability. Other parts are looked for at the speed of the cage that the surest one "
+    "shows, without its lines."
 )
 
 
 def diagnosis_page(of: Diagnosis, title: str | None = None) -> Page:
     """Return a diagnosis as a page."""
-    what = of.verdict + "".join(f", {NAMES[part]}" for part in of.parts)
-    page = Page(title or f"{of.bearing}: {what}")
-    page.text(f"Verdict: {what}. {capital(reason(of))}.")
+    page = Page(title or f"{of.bearing}: {headline(of)}")
+    page.text(f"Verdict: {headline(of)}. {capital(reason(of))}.")
     for note in of.notes:
         page.warning(note)
     page.section("Record and bearing")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
@@ -17,16 +16,20 @@ from .arguments import (
     known_within,
     other_rates,
 )
+from .bursts import bursts_of
+from .drift import without_drift
 from .examined import bands_for, examined
-from .lacking import lack_of, notes_of, unexplained, wanting_of
-from .likelihood import at_any_size, strongest, with_ratios
+from .lacking import lack_of, notes_of, unclipped, unexplained, wanting_of
+from .likelihood import with_ratios
+from .mistakes import another_rate, changing_speed, given_in_hertz, repeating
 from .null import ACCUSED, largest_z
 from .result import Diagnosis
 from .rows import judged_by_rows
+from .sensitivity import sensitivity_of
 from .severity import checked_machine, severity_of
 from .shaft import ShaftRate
-from .strength import has_background, limits_of
-from .verdict import decided, own_lines
+from .strength import SHALLOW
+from .verdict import Size, Verdict, decided
 from .width import sized, unknown_width
 
 if TYPE_CHECKING:
@@ -34,7 +37,9 @@ if TYPE_CHECKING:
 
     from ..channel import Channel
     from ..spectra.checks import Given
+    from .examined import Examined
     from .kinematics import AnyBearing, Kinematics
+    from .sensitivity import Sensitivity
     from .severity import Machine
 
 __all__ = ["diagnose"]
@@ -59,21 +64,22 @@ def diagnose(
 ) -> Diagnosis:
     """Diagnose a bearing from a record: healthy, damaged with the parts, or undecided.
 
-    The record is prewhitened in two ways; in overlapping bands the squared envelope's spectrum is searched for the
-    combs of lines that faults of each part have. Their heights are compared with a thousand combs at orders of the
-    same record that no part has, so that the rate of false alarms is known, without training and without a
-    threshold in decibels. Lines that stand out count as damage only with a deep modulation or impacts that stand
-    out and, where the unit of the record is known, only where such lines mean damage at odds of twenty to one
-    among simulated bearings, or are stronger than in any healthy one. Lines that chance has in up to three
-    times as many records as ``false_alarm`` allows count at these odds. A record with impacts at no rate of the
-    bearing, or with too few turns to separate a race from the shaft, is not called healthy.
+    The record is prewhitened in two ways; in overlapping bands the squared envelope's spectrum is searched for
+    the combs of lines that faults of each part have, all at one speed of the cage. Their heights are compared
+    with a thousand combs at orders of the same record that no part has, so that the rate of false alarms is
+    known, without training and without a threshold in decibels. Lines that stand out are damage where they are
+    deep, come from impacts and are not tiny; otherwise they are left open, and only in a run itself called
+    healthy. Lines that chance has in up to three times as many records as ``false_alarm`` allows are damage at
+    odds of twenty to one among simulated bearings. A record is called healthy where damage would have stood out
+    in it: not with a narrow band, at a nominal speed that it does not show, with impacts at no rate of the
+    bearing, or with too few turns to separate a race from the shaft.
 
     Parameters
     ----------
     record : Signals, Measurement, Recording, Channel or array_like, shape (n,)
         At constant speed, over 20 turns of the shaft and more. Of a speed that changes give the signal over the
         shaft's angle (:func:`ballrace.spectra.by_order`), with its samples a turn as ``fs`` and 60 as
-        ``speed_rpm``.
+        ``speed_rpm``. What is slower than the shaft does not count.
     bearing : str, Bearing, Scene, Row, Orders, FaultFrequencies or mapping, optional
         A designation such as ``"6205-2RS/C3"``, a bearing of the catalogue, a scene, a row of one, or orders, as a
         mapping of ``ftf``, ``bpfo``, ``bpfi`` and ``bsf``. By default the scene of the record.
@@ -90,15 +96,14 @@ def diagnose(
     column : str, optional
         Column of a record; by default ``outer.ay`` if there is one, else the first.
     unit : {"m/s^2", "g"}, optional
-        Unit, where the record has none, such as an array. Without one the strength of lines is not judged, and
-        lines without impacts, or in a record without noise, give no verdict.
+        Unit, where the record has none, such as an array. Without one the strength of lines is not judged.
     row : int, optional
         Row of balls of a scene, from 0; by default all rows whose orders differ, and the verdict on the one with
         the strongest sign of damage (``bearing`` names it, a note the others).
     speed_within : float, optional
-        Relative uncertainty of the speed, 0 to 0.01, such as 0.001 with a tachometer. By default 0 where it is a
-        run's own, else 0.01. In a short record, lines of a race whose order is nearly an integer, such as 4.95,
-        are also those of a slightly slower shaft: only a more accurate speed separates them.
+        Relative uncertainty of the speed, 0 to 0.08, such as 0.001 with a tachometer; 0 where it is a run's own.
+        By default the shaft is looked for within 1 %, and within 8 % where it is not clear there. A record that
+        does not show it clears nothing unless its speed is known within 0.002.
     false_alarm : float
         Share of healthy records that may be called damaged, from 1e-6 to 0.2.
     exclude : iterable of float
@@ -114,7 +119,8 @@ def diagnose(
     Returns
     -------
     Diagnosis
-        Verdict, evidence, severity, width of a spall; ``plot()``, ``plot_size()`` and ``report(path)``.
+        Verdict, evidence, what damage would have stood out, severity, width of a spall; ``plot()``,
+        ``plot_size()`` and ``report(path)``.
 
     Raises
     ------
@@ -158,47 +164,77 @@ def diagnose(
     kinematics, nominal = known_bearing(channel, bearing, row or 0, speed_rpm, outer_rpm)
     given = speed_rpm is not None or outer_rpm is not None
     within = known_within(channel, given=given, speed_within=speed_within)
-    exact = within == 0.0 and channel.scene is not None and bearing is None
     orders, rates = other_rates(exclude, mains)
     machine = checked_machine(machine)
     shaft = ShaftRate(rate=nominal, nominal=nominal, by="nominal", z=0.0)
     undecided = _undecided(channel, kinematics, shaft, false_alarm)
+    whole, clipped = channel, unclipped(channel.x)
+    channel = replace(channel, x=without_drift(channel.x, channel.fs, nominal))
     lack = lack_of(channel, nominal, kinematics, len(bands_for(channel, kinematics, nominal)))
     if lack is not None:
-        return replace(undecided, why=lack)
+        return replace(undecided, why=given_in_hertz(channel, nominal) or lack)
     found = examined(
         channel, kinematics, nominal, within=within, orders=orders, rates=rates, seed=seed
     )
     shaft, bands = found.shaft, found.envelopes.bands
     diameter = _diameter(channel, kinematics)
     evidence = with_ratios(found.evidence, diameter, shaft.rate)
-    own = own_lines(
-        evidence, found.levels, kinematics, shaft.rate, false_alarm=false_alarm, seed=seed
-    )
-    limits = None if diameter is None else limits_of(math.pi * diameter * shaft.rate)
-    strong = [
-        part
-        for part in own
-        if diameter is not None
-        and at_any_size(evidence[part].strength.acceleration, diameter, shaft.rate)
-        > strongest(evidence[part].role)
-    ]
-    kurtosis = found.envelopes.impacts(limits.faint if limits else 0.0)
+    size = None if diameter is None else Size(diameter=diameter, rate=shaft.rate)
+    exact = within == 0.0 and channel.scene is not None and bearing is None
+    is_run = exact and channel.is_run
+    kurtosis = found.envelopes.impacts(size.faint if is_run and size is not None else 0.0)
     # A cage that stands has no lines.
     cage = "cage" in evidence and evidence["cage"].probability < false_alarm
+    seen = None if is_run else _seen(found, kinematics, undecided.threshold, diameter)
+    impacts = unexplained(kurtosis, exact=exact, cage=cage)
     verdict = decided(
-        evidence, own, false_alarm, strong=strong, limits=limits, silent=not has_background(channel.x),
-        impacts=unexplained(kurtosis, exact=exact, cage=cage),
-        wanting=wanting_of(channel, shaft.rate, kinematics, within),
+        evidence, false_alarm, size=size, is_run=is_run, bursts=bursts_of(evidence), seen=seen,
+        wanting=[*clipped, *wanting_of(channel, shaft, kinematics, within, impacts)],
     )  # fmt: skip
+    verdict = verdict if exact else _doubted(verdict, impacts, found, channel, kinematics)
     deciding = bands.index(max((evidence[part] for part in ACCUSED), key=lambda one: one.z).band)
-    severity = severity_of(channel, shaft.rate, found.envelopes, deciding, machine)
+    severity = severity_of(whole, shaft.rate, found.envelopes, deciding, machine)
     damaged = [evidence[part] for part in verdict.parts]
-    size = sized(channel.x, channel.fs, shaft.rate, kinematics, damaged)
+    width = sized(channel.x, channel.fs, shaft.rate, kinematics, damaged)
     return replace(
         undecided, verdict=verdict.verdict, parts=verdict.parts, why=verdict.why, evidence=evidence, shaft=shaft,
-        severity=severity, width=size.width, _size=size, _levels=found.levels, _bands=tuple(bands),
+        severity=severity, width=width.width, sensitivity=seen, _size=width, _levels=found.levels,
+        _bands=tuple(bands),
     )  # fmt: skip
+
+
+def _doubted(
+    verdict: Verdict, impacts: str | None, found: Examined, channel: Channel, kinematics: Kinematics
+) -> Verdict:
+    """Return a verdict that names the likely mistake, and is open where something unknown repeats deeply."""
+    shaft, bands = found.shaft.rate, found.envelopes.bands
+    if verdict.verdict == "undecided" and impacts is not None:
+        why = changing_speed(channel, shaft, bands)
+        if why is not None:
+            return replace(verdict, why=why)
+    if verdict.verdict == "healthy" or verdict.why == impacts:
+        rate = repeating(channel, shaft, bands)
+        if rate is not None and found.envelopes.deepest(rate) >= SHALLOW:
+            why = another_rate(channel, kinematics, rate, shaft)
+            return Verdict(verdict="undecided", parts=(), why=why)
+    return verdict
+
+
+def _seen(
+    found: Examined, kinematics: Kinematics, threshold: float, diameter: float | None
+) -> Sensitivity | None:
+    """Return the least damage of the outer race that would stand out."""
+    search = found.searches["outer_race"]
+    ball = None if kinematics.row is None else kinematics.row.ball_diameter
+    return sensitivity_of(
+        found.envelopes,
+        search.comb,
+        search.found,
+        found.shaft.rate,
+        threshold,
+        diameter=diameter,
+        ball=ball,
+    )
 
 
 def _diameter(channel: Channel, kinematics: Kinematics) -> float | None:

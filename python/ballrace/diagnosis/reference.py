@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from ..channel import channel_of
 from ..errors import SceneError
 from .arguments import checked_channel
+from .drift import without_drift
 from .null import ACCUSED
 from .severity import severity_of
 from .strength import Envelopes
@@ -35,6 +36,7 @@ def against(
             f"a record in {of.unit or 'no unit'} that reaches the deciding band, {band[1]:.0f} Hz"
         )
         raise SceneError("reference", given, allowed)
-    envelopes = Envelopes(channel.x, channel.fs, [band])
+    steady = without_drift(channel.x, channel.fs, of.shaft.nominal)
+    envelopes = Envelopes(steady, channel.fs, [band])
     before = severity_of(channel, of.shaft.rate, envelopes, 0, of.severity.machine)
     return replace(of, severity=of.severity.over(before))

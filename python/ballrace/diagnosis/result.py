@@ -12,6 +12,7 @@ from .._text import printable
 from .combs import Part
 from .envelopes import Levels
 from .evidence import Evidence
+from .sensitivity import Sensitivity
 from .severity import Severity
 from .shaft import ShaftRate
 from .verdict import NAMES, Verdicts
@@ -48,6 +49,8 @@ class Diagnosis:
         Severity of the vibration; None where the record allows no evidence.
     width : Width
         How wide the spall of a damaged race is, with an interval, or why that is not known.
+    sensitivity : Sensitivity or None
+        Least damage that would have stood out; None where hardly any would, and of a run, which has no noise.
     false_alarm : float
         Share of healthy records that may be called damaged, as asked for.
     threshold : float
@@ -75,6 +78,7 @@ class Diagnosis:
     record: str
     unit: str
     notes: tuple[str, ...] = ()
+    sensitivity: Sensitivity | None = None
     _levels: Levels | None = field(default=None)
     _bands: tuple[tuple[float, float], ...] = ()
     _size: Sized | None = None
@@ -87,10 +91,9 @@ class Diagnosis:
         return _remade, (fields | {"evidence": dict(self.evidence)},)
 
     def __repr__(self) -> str:
-        what = self.verdict + "".join(f", {NAMES[part]}" for part in self.parts)
         by = f"z above {self.threshold:.1f} in {100.0 * self.false_alarm:g} % of healthy records"
         lines = [
-            f"<Diagnosis of {self.bearing}: {what}",
+            f"<Diagnosis of {self.bearing}, {self.record}: {headline(self)}",
             f"  {reason(self)}",
             "  " + (", ".join(map(_short, self.evidence.values())) or "no evidence"),
             *([f"  {width_of(self)}"] if self.width.part else []),
@@ -100,8 +103,7 @@ class Diagnosis:
 
     def _repr_html_(self) -> str:
         """Return the verdict and a table of the evidence, as notebooks show it."""
-        what = self.verdict + "".join(f", {NAMES[part]}" for part in self.parts)
-        summary = paragraph(f"{self.bearing}: {what}.", f"{capital(reason(self))}.")
+        summary = paragraph(f"{self.bearing}: {headline(self)}.", f"{capital(reason(self))}.")
         return summary + table(header_of(self.unit), self.rows())
 
     def _row(self, one: Evidence) -> int:
@@ -225,6 +227,11 @@ HEADER = (
 def header_of(unit: str) -> list[str]:
     """Return the columns of :meth:`Diagnosis.rows` for a record in a unit."""
     return [*HEADER[:-1], f"{HEADER[-1]}, {unit or 'unit not known'}"]
+
+
+def headline(of: Diagnosis) -> str:
+    """Return the verdict with the parts, such as ``damaged, outer race``."""
+    return of.verdict + "".join(f", {NAMES[part]}" for part in of.parts)
 
 
 def reason(of: Diagnosis) -> str:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from .combs import REACH
 from .kinematics import kinematics_of
 from .null import ACCUSED
 
@@ -16,6 +15,10 @@ if TYPE_CHECKING:
     from .result import Diagnosis
 
 __all__ = ["judged_by_rows"]
+
+_ALIKE = 0.015
+"""Orders of two rows that differ by less, as a part of them, are those of one for a search that allows for
+slip."""
 
 _RANK = {"damaged": 2, "undecided": 1, "healthy": 0}
 
@@ -52,7 +55,7 @@ def _alike(scene: Scene) -> list[list[int]]:
         orders = kinematics_of(scene, row).orders
         for bpfo, bpfi, rows in groups:
             ratios = (orders.bpfo / bpfo, orders.bpfi / bpfi)
-            if all(abs(ratio - 1.0) <= REACH for ratio in ratios):
+            if all(abs(ratio - 1.0) <= _ALIKE for ratio in ratios):
                 rows.append(row)
                 break
         else:

@@ -8,6 +8,7 @@ from . import words
 from .bearing import add_bearing, add_loads
 from .page import Page
 from .signal import add_features, add_signal, chosen
+from .verdict import add_verdict
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -24,6 +25,7 @@ def run_page(
     names = chosen(out, columns)
     scene = out.scene
     page = Page(title or scene.name or "A bearing")
+    add_verdict(page, out, names)
     page.text(
         f"{out.n_samples} samples at {out.fs:g} Hz, {out.n_samples / out.fs:.4g} s of simulated time."
     )

@@ -32,6 +32,7 @@ from .envelopes import (
 )
 from .kurtograms import Kurtogram, kurtogram, spectral_kurtosis
 from .lines import comb, floor, line, spectrum
+from .pulses import angle_from_pulses, pulse_times
 from .separation import separated
 from .standard_bands import VelocityBand, bands_iso15242
 from .whitening import prewhitened
@@ -41,6 +42,7 @@ __all__ = [
     "FaultMetrics",
     "Kurtogram",
     "VelocityBand",
+    "angle_from_pulses",
     "bands_iso15242",
     "by_order",
     "comb",
@@ -56,6 +58,7 @@ __all__ = [
     "order_spectrum",
     "prewhitened",
     "psd",
+    "pulse_times",
     "separated",
     "spectral_kurtosis",
     "spectrogram",

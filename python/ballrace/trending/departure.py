@@ -17,7 +17,7 @@ _ROUNDING = 1e-9
 """Part of the mean that a deviation is at least, so that rounding is none."""
 
 
-def limit_of(first: NDArray[np.float64]) -> float:
+def limit_of(first: NDArray[np.float64], independent: float | None = None) -> float:
     """Return what a quantity exceeds by chance as seldom as a normal one exceeds three deviations.
 
     A baseline of few values knows neither its mean nor its deviation well: the distance is that of Student's
@@ -28,6 +28,8 @@ def limit_of(first: NDArray[np.float64]) -> float:
     ----------
     first : ndarray, shape (n,)
         The quantity of the baseline, three values and more.
+    independent : float, optional
+        How many independent values they are worth, more than one; by default all are.
 
     Examples
     --------
@@ -36,13 +38,27 @@ def limit_of(first: NDArray[np.float64]) -> float:
     """
     from scipy.stats import norm, t
 
-    distance = t.ppf(norm.cdf(_DEVIATIONS), first.size - 1) * np.sqrt(1.0 + 1.0 / first.size)
+    count = first.size if independent is None else independent
+    distance = t.ppf(norm.cdf(_DEVIATIONS), count - 1.0) * np.sqrt(1.0 + 1.0 / count)
     mean = float(first.mean())
     return mean + float(distance) * max(float(first.std(ddof=1)), _ROUNDING * abs(mean))
 
 
-def departure_of(value: NDArray[np.float64], baseline: int, limit: float) -> int | None:
-    """Return the first value behind the baseline that exceeds a limit, as the next one does; None without.
+def departure_of(
+    value: NDArray[np.float64], baseline: int, limit: float, row: int = 2
+) -> int | None:
+    """Return the first value behind the baseline that exceeds a limit, as those that follow do; None without.
+
+    Parameters
+    ----------
+    value : ndarray, shape (n,)
+        The quantity.
+    baseline : int
+        Values of the baseline.
+    limit : float
+        What they exceed.
+    row : int
+        How many in a row.
 
     Examples
     --------
@@ -50,6 +66,8 @@ def departure_of(value: NDArray[np.float64], baseline: int, limit: float) -> int
     5
     """
     above = value > limit
-    twice = above[:-1] & above[1:]
-    twice[:baseline] = False
-    return int(np.argmax(twice)) if twice.any() else None
+    above[:baseline] = False
+    if above.size < row:
+        return None
+    together = np.lib.stride_tricks.sliding_window_view(above, row).all(axis=1)
+    return int(np.argmax(together)) if together.any() else None

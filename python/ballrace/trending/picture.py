@@ -23,6 +23,9 @@ _NAMES = {
     "outer_race.acceleration": "at BPFO",
     "inner_race.acceleration": "at BPFI",
     "ball.acceleration": "at 2·BSF",
+    "outer_race.lines": "lines of BPFO",
+    "inner_race.lines": "lines of BPFI",
+    "ball.lines": "lines of 2·BSF",
 }
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
@@ -11,14 +12,18 @@ from .._numbers import counted, real_row
 from .._polars import pl
 from ..channel import Recorded, channel_of
 from ..diagnosis import diagnose
-from ..diagnosis.arguments import checked_channel
+from ..diagnosis.arguments import checked_channel, known_bearing
+from ..diagnosis.lacking import FEWEST_TURNS
 from ..diagnosis.null import ACCUSED
 from ..errors import SceneError
 from .departure import departure_of, limit_of
-from .quantities import FOLLOWED, numbers_of, shapes_of
+from .pooling import TURNS, Pool
+from .quantities import FOLLOWED, POOLED, numbers_of, shapes_of
 from .result import Trend
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from numpy.typing import ArrayLike, NDArray
 
     from ..channel import Channel
@@ -28,6 +33,9 @@ if TYPE_CHECKING:
     from ..spectra.checks import Given
 
 __all__ = ["trend"]
+
+_OVERLAPPING = 1.5
+"""Independent values that those of groups which overlap are worth, over those of groups which do not."""
 
 
 def trend(
@@ -51,10 +59,13 @@ def trend(
 
     Of every record :func:`ballrace.diagnose` gives verdict, z and strength of each part, and the severity. Root
     mean square, velocity, crest factor, kurtosis and the accelerations at the rates of the faults are compared
-    with their own baseline, the first records: a departure is the first record above the baseline's mean by three
-    of its deviations whose next record is, too. Where the baseline has few records, the three become more
-    (:func:`ballrace.trending.departure.limit_of`). Crest factor and kurtosis are those of one band in all records:
-    the deciding one of the record with the largest z.
+    with their own baseline, the first records: a departure is the first record above the baseline's mean by
+    three of its deviations whose next record is, too. Records of less than 20 turns of the shaft, which hardly
+    show lines by themselves, are pooled: ``<part>.lines`` says how high lines of a part stand in the median of the
+    spectra of the squared envelope of the last records, 60 turns together, as far as a third of the baseline
+    allows. Where the baseline has few records, the three become more
+    (:func:`ballrace.trending.departure.limit_of`). Crest factor and kurtosis are those of one band in all
+    records: the deciding one of the record with the largest z.
 
     Parameters
     ----------
@@ -101,19 +112,25 @@ def trend(
         "machine": machine, "seed": seed,
     }  # fmt: skip
     taken: list[_Taken] = []
+    pool = None
     for number, record in enumerate(records):
         at = f"records[{number}]"
         channel = checked_channel(channel_of(record, fs, column, name=at), unit, at)
         _check_alike(at, channel, taken[0] if taken else None)
-        taken.append(_Taken(channel, diagnose(channel, bearing, speed_rpm, **options)))
+        if pool is None:
+            known = known_bearing(channel, bearing, row or 0, speed_rpm, outer_rpm)
+            pool = Pool(*known, _count(channel, known[1], int(baseline)))
+        found = diagnose(channel, bearing, speed_rpm, **options)
+        taken.append(_Taken(channel, found, pool.heights(channel)))
     if len(taken) < baseline + 2:
         wanted = f"{baseline + 2} and more: the baseline and two"
         raise SceneError("records", f"{len(taken)} records", wanted)
     band = max(taken, key=lambda one: one.z).band
     table = _table(taken, band, _checked_times(times, len(taken)))
-    limits, departures = _departures(table, int(baseline))
+    assert pool is not None
+    limits, departures = _departures(table, int(baseline), pool.count)
     return Trend(
-        table=table, baseline=int(baseline), limits=limits, departures=departures, band=band,
+        table=table, baseline=int(baseline), pooled=pool.count, limits=limits, departures=departures, band=band,
         bearing=taken[0].bearing, unit=taken[0].unit,
     )  # fmt: skip
 
@@ -121,11 +138,14 @@ def trend(
 class _Taken:
     """What is kept of a record: not its samples, so that many may follow each other."""
 
-    def __init__(self, channel: Channel, found: Diagnosis) -> None:
+    def __init__(
+        self, channel: Channel, found: Diagnosis, heights: Mapping[str, float | None]
+    ) -> None:
         accused = [found.evidence[part] for part in ACCUSED if part in found.evidence]
         first = max(accused, key=lambda one: one.z, default=None)
         self.fs, self.unit, self.bearing = channel.fs, channel.unit, found.bearing
         self.numbers = numbers_of(channel, found)
+        self.numbers |= {f"{part}.lines": height for part, height in heights.items()}
         self.shapes = shapes_of(channel, found._bands)
         self.z = -np.inf if first is None else first.z
         self.band = None if first is None else first.band
@@ -161,16 +181,30 @@ def _table(
     return found.with_columns(pl.col(name).cast(pl.Float64) for name in FOLLOWED)
 
 
-def _departures(table: pl.DataFrame, baseline: int) -> tuple[dict[str, float], dict[str, int]]:
-    """Return the limit of each quantity that all records have, and the record at which it departs."""
+def _count(channel: Channel, shaft: float, baseline: int) -> int:
+    """Return how many records are pooled, of short ones; the baseline has to hold three such groups."""
+    turns = channel.n_samples / channel.fs * shaft
+    return 1 if turns >= FEWEST_TURNS else max(min(math.ceil(TURNS / turns), baseline // 3), 1)
+
+
+def _departures(
+    table: pl.DataFrame, baseline: int, pooled: int
+) -> tuple[dict[str, float], dict[str, int]]:
+    """Return the limit of each quantity that all records have, and the record at which it departs.
+
+    Quantities that ``pooled`` records share have a value from the last of the first group on. Their baseline is
+    the groups that share no record, and they depart where half a group of values does.
+    """
     limits: dict[str, float] = {}
     departures: dict[str, int] = {}
     for name in FOLLOWED:
-        if table[name].null_count():
-            continue
+        count = pooled if name in POOLED else 1
         value = table[name].to_numpy()
-        limits[name] = limit_of(value[:baseline])
-        at = departure_of(value, baseline, limits[name])
+        if np.isnan(value[count - 1 :]).any():
+            continue
+        worth = _OVERLAPPING * (baseline / count) if count > 1 else None
+        limits[name] = limit_of(value[count - 1 : baseline], worth)
+        at = departure_of(np.nan_to_num(value), baseline, limits[name], max(2, count // 2))
         if at is not None:
             departures[name] = at
     return limits, departures

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from ..channel import Channel
     from ..diagnosis import Diagnosis
 
-__all__ = ["FOLLOWED", "Shape", "numbers_of", "shapes_of"]
+__all__ = ["FOLLOWED", "POOLED", "Shape", "numbers_of", "shapes_of"]
 
 FOLLOWED = (
     "rms",
@@ -22,8 +22,12 @@ FOLLOWED = (
     "crest_factor",
     "kurtosis",
     *(f"{part}.acceleration" for part in ACCUSED),
+    *(f"{part}.lines" for part in ACCUSED),
 )
 """Columns in which a departure is looked for."""
+
+POOLED = tuple(f"{part}.lines" for part in ACCUSED)
+"""Those of them that each record shares with the last ones."""
 
 
 @dataclass(frozen=True)

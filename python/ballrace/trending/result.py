@@ -24,10 +24,13 @@ class Trend:
     table : polars.DataFrame
         A row a record: ``time``; ``verdict`` and ``parts`` (joined by +); ``shaft`` [Hz]; ``rms`` [unit of the
         records]; ``velocity`` [mm/s] and ``zone`` of ISO 20816-3; ``<part>.z`` and ``<part>.acceleration`` of
-        ``outer_race``, ``inner_race`` and ``ball``; ``crest_factor`` and ``kurtosis`` in ``band``. Cells are empty
-        where a record has no value.
+        ``outer_race``, ``inner_race`` and ``ball``; ``<part>.lines``, how high their lines stand in the spectra
+        of the squared envelope of the last ``pooled`` records [dB]; ``crest_factor`` and ``kurtosis``
+        in ``band``. Cells are empty where a record has no value.
     baseline : int
         How many of the first records are the baseline.
+    pooled : int
+        How many records share the spectra of ``<part>.lines``.
     limits : mapping of str to float
         Limit that each quantity has to exceed twice in a row to depart, by column.
     departures : mapping of str to int
@@ -42,6 +45,7 @@ class Trend:
 
     table: pl.DataFrame
     baseline: int
+    pooled: int
     limits: Mapping[str, float]
     departures: Mapping[str, int]
     band: tuple[float, float] | None
