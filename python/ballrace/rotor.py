@@ -148,7 +148,7 @@ class StiffnessTable:
             As :meth:`ross_arguments`.
         """
         arguments = self.ross_arguments(load)
-        ross = needed("ross", "a bearing element of ROSS", None)
+        ross = needed("ross", "a bearing element of ROSS", extra=None, package="ross-rotordynamics")
         return ross.BearingElement(n=n, **arguments, **more)
 
     def to_polars(self) -> pl.DataFrame:

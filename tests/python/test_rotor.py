@@ -238,6 +238,6 @@ def test_without_ross_one_line_says_how_to_install_it(
 ) -> None:
     monkeypatch.setitem(sys.modules, "ross", None)
     with pytest.raises(
-        ImportError, match=r"a bearing element of ROSS needs ross .*pip install ross"
+        ImportError, match=r"a bearing element of ROSS needs ross .*pip install ross-rotordynamics$"
     ):
         table.to_ross(0)
