@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._numbers import real_row
-from ._units import in_unit
+from ._units import canonical, in_unit
 from .errors import SceneError
 from .scene import Scene
 
@@ -101,15 +101,17 @@ class Channel:
 
         Parameters
         ----------
-        unit : {"m/s^2", "g", "mm/s", "m/s"}
-            Accelerations become velocities by integration in the spectrum (division by 2πif).
+        unit : {"m/s^2", "g", "mg", "mm/s^2", "cm/s^2", "in/s^2", "ft/s^2", "mm/s", "m/s", "cm/s", "µm/s", "in/s"}
+            However it is spelled. Accelerations become velocities by integration in the spectrum (division by
+            2πif).
         band : tuple of two floats
             Frequencies that a velocity keeps [Hz]; by default those of ISO 20816-1, 10 to 1000 Hz.
 
         Raises
         ------
         SceneError
-            There is no such unit, or the channel's own is not known.
+            There is no such unit, or the channel's own is not known, or that of something else: a voltage has
+            to be divided by the sensor's sensitivity, an envelope (gE) or a displacement is no acceleration.
 
         Examples
         --------
@@ -121,7 +123,7 @@ class Channel:
         (15.92, 1.02)
         """
         x = in_unit(self.x, self.fs, self.unit, unit, band)
-        return replace(self, x=x, unit=unit.replace("²", "^2"))
+        return replace(self, x=x, unit=canonical(unit))
 
 
 @runtime_checkable
