@@ -26,7 +26,9 @@ from .errors import (
     CampaignWarning,
     EquilibriumError,
     FileError,
+    FileWarning,
     IntegrationError,
+    InternalError,
     MemoryLimitError,
     SceneError,
     SceneWarning,
@@ -54,7 +56,7 @@ if TYPE_CHECKING:
     from .ratings.friction import FrictionTorque, friction_torque_palmgren, friction_torque_skf
     from .ratings.life import RatingLife, rating_life
     from .ratings.life_factor import LifeFactor
-    from .recordings import Recording, read
+    from .recordings import RecordFolder, Recording, read, read_folder
     from .ring_force import RingForce, RingMotion
     from .rotor import StiffnessTable, stiffness_table
     from .run import simulate
@@ -99,7 +101,7 @@ else:
             ),
             "ratings.life": ("RatingLife", "rating_life"),
             "ratings.life_factor": ("LifeFactor",),
-            "recordings": ("Recording", "read"),
+            "recordings": ("RecordFolder", "Recording", "read", "read_folder"),
             "ring_force": ("RingForce", "RingMotion"),
             "rotor": ("StiffnessTable", "stiffness_table"),
             "run": ("simulate",),
@@ -136,8 +138,10 @@ __all__ = [
     "Explanation",
     "FaultFrequencies",
     "FileError",
+    "FileWarning",
     "FrictionTorque",
     "IntegrationError",
+    "InternalError",
     "LifeFactor",
     "LoadDistribution",
     "MemoryLimitError",
@@ -147,6 +151,7 @@ __all__ = [
     "RaceFilm",
     "RatingLife",
     "Record",
+    "RecordFolder",
     "Recording",
     "RingForce",
     "RingMotion",
@@ -190,6 +195,7 @@ __all__ = [
     "rating_life",
     "read",
     "read_bearing_dataset",
+    "read_folder",
     "scatter",
     "scene",
     "shaft",

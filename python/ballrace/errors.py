@@ -18,7 +18,9 @@ __all__ = [
     "CampaignWarning",
     "EquilibriumError",
     "FileError",
+    "FileWarning",
     "IntegrationError",
+    "InternalError",
     "MemoryLimitError",
     "SceneError",
     "SceneWarning",
@@ -78,6 +80,26 @@ class FileError(BallraceError, ValueError):
 
     def __str__(self) -> str:
         return printable(f"{self.path}: {self.reason}")
+
+
+class InternalError(BallraceError, RuntimeError):
+    """A fault of this package itself, not of what it was given; please report it with its traceback.
+
+    Attributes
+    ----------
+    message : str
+        What was being done.
+    trace : str
+        The traceback, also of another process.
+    """
+
+    def __init__(self, message: str, trace: str) -> None:
+        super().__init__(message, trace)
+        self.message = message
+        self.trace = trace
+
+    def __str__(self) -> str:
+        return printable(f"{self.message}\n{self.trace}")
 
 
 class EquilibriumError(BallraceError, RuntimeError):
@@ -176,6 +198,14 @@ class SceneWarning(UserWarning):
     Given where a number is one that no bearing is likely to have, as in another unit, where a contact's largest
     Hertz pressure exceeds that of the static load rating, and where a probe records what cannot move.
     ``out.warnings`` keeps the texts; ``warnings.simplefilter("error", ballrace.SceneWarning)`` makes it an error.
+    """
+
+
+class FileWarning(UserWarning):
+    """A file was read, but something it says was not followed; the message names it and what was taken instead.
+
+    Given where the times of a record are too coarse, or too uneven, for the sampling rate that was given.
+    ``warnings.simplefilter("error", ballrace.FileWarning)`` makes it an error.
     """
 
 

@@ -36,7 +36,7 @@ HANG = 120.0
 A_ROUND = 40
 """Examples of one seed."""
 
-_QUIET = (br.AccuracyWarning, br.SceneWarning, br.CampaignWarning)
+_QUIET = (br.AccuracyWarning, br.SceneWarning, br.CampaignWarning, br.FileWarning)
 
 T = TypeVar("T")
 

@@ -6,14 +6,17 @@ import io
 import struct
 import tempfile
 import warnings
-from functools import cache
+from collections.abc import Callable
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
 import h5py
+import nptdms
 import numpy as np
 import polars as pl
 import pyuff
+import xlsxwriter
 from scipy.io import savemat, wavfile
 
 import ballrace as br
@@ -32,15 +35,25 @@ def seeds(end: str) -> tuple[bytes, ...]:
         "uff": _uff,
         "h5": _hdf5,
         "parquet": _parquet,
+        "lvm": _lvm,
+        "npy": _npy,
+        "npz": _npz,
+        "tdms": _tdms,
+        "xlsx": _xlsx,
     }
     ours = br.Recording(columns={"ay": X, "ax": 2.0 * X}, fs=1000.0, units={"ay": "g"}, shaft=25.0)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / f"a.{end}"
+        if end in READ:
+            return tuple(made[end](path))
         ours.write(path)
         return path.read_bytes(), *made[end](path)
 
 
-ENDS = ("csv", "wav", "mat", "uff", "h5", "parquet")
+READ = ("lvm", "npy", "npz", "tdms", "xlsx")
+"""Ends of names of files that are only read."""
+
+ENDS = ("csv", "wav", "mat", "uff", "h5", "parquet", *READ)
 
 
 def _csv(_: Path) -> list[bytes]:
@@ -126,3 +139,60 @@ def _parquet(path: Path) -> list[bytes]:
     scene = br.presets.deep_groove_6205()
     br.simulate(scene, duration=4e-4, start="rolling", settle=0.0).write_parquet(path)
     return [*found, path.read_bytes()]
+
+
+def _lvm(_: Path) -> list[bytes]:
+    head = [
+        "LabVIEW Measurement\t", "Separator\tTab", "Decimal_Separator\t,", "***End_of_Header***\t", "",
+        "Channels\t1", "Y_Unit_Label\tg", "Delta_X\t1,0E-3", "***End_of_Header***\t\t", "X_Value\tAcc\tComment",
+    ]  # fmt: skip
+    rows = [f"{t:.6f}\t{x:.6f}".replace(".", ",") for t, x in zip(T, X, strict=True)]
+    clock = [f"10:20:{30.0 + t:09.6f}|{x}|ok" for t, x in zip(T, X, strict=True)]
+    return [
+        "\r\n".join([*head, *rows]).encode(),
+        "\n".join(["Time|a|state", *clock, "", "End"]).encode("utf-16"),
+        "\n".join(["# remark", *(f'"{x}"'.replace(".", ",") for x in X)]).encode(),
+    ]
+
+
+def _saved(save: Callable[[io.BytesIO], object]) -> bytes:
+    buffer = io.BytesIO()
+    save(buffer)
+    return buffer.getvalue()
+
+
+def _npy(_: Path) -> list[bytes]:
+    table = np.zeros(40, dtype=[("t", "f8"), ("x", "f4")])
+    table["t"], table["x"] = T, X
+    arrays = (X, np.stack([X, T]), X.astype("<i2"), table)
+    return [_saved(partial(np.save, arr=array)) for array in arrays]
+
+
+def _npz(_: Path) -> list[bytes]:
+    content: dict[str, Any] = {"acc": X, "fs": 1000.0, "unit": "g", "tach": T[:9]}
+    return [_saved(partial(save, **content)) for save in (np.savez, np.savez_compressed)]
+
+
+def _tdms(path: Path) -> list[bytes]:
+    found = []
+    for properties in ({"wf_increment": 1e-3, "unit_string": "g"}, {}):
+        channels = [
+            nptdms.ChannelObject("run", "acc", X, properties),
+            nptdms.ChannelObject("run", "t", T),
+        ]
+        with nptdms.TdmsWriter(path) as writer:
+            writer.write_segment([nptdms.RootObject({"operator": "N. N."}), *channels])
+            if properties:
+                writer.write_segment(channels)
+        found.append(path.read_bytes())
+    return found
+
+
+def _xlsx(path: Path) -> list[bytes]:
+    book = xlsxwriter.Workbook(path)
+    sheet = book.add_worksheet()
+    sheet.write_row(0, 0, ["Time [s]", "a [g]"])
+    for number, row in enumerate(zip(T.tolist(), X.tolist(), strict=True)):
+        sheet.write_row(number + 1, 0, row)
+    book.close()
+    return [path.read_bytes()]

@@ -62,6 +62,7 @@ def record_is_decided(end: str, data: bytes) -> str:
         if isinstance(found, br.FileError):
             assert found.path == str(path), found
             return "ended" if "ended the process" in found.reason else "refused"
+        assert not isinstance(found, br.InternalError), found
         if isinstance(found, br.BallraceError):
             return type(found).__name__
         assert found.n_samples > 0
@@ -83,6 +84,11 @@ test_any_mat = _target("mat")
 test_any_uff = _target("uff")
 test_any_hdf5 = _target("h5")
 test_any_parquet = _target("parquet")
+test_any_lvm = _target("lvm")
+test_any_npy = _target("npy")
+test_any_npz = _target("npz")
+test_any_tdms = _target("tdms")
+test_any_xlsx = _target("xlsx")
 
 
 @pytest.mark.parametrize("end", ENDS)

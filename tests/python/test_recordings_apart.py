@@ -48,7 +48,11 @@ def reading(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[[str], None]]:
 
     def by(program: str) -> None:
         apart.end_child()
-        start = "from ballrace.recordings import here, samples; import os, numpy as np, signal"
+        start = (
+            "from ballrace.recordings import formats, samples; import dataclasses, os, numpy as np, signal\n"
+            "def csv_by(read):\n"
+            "    formats.FORMATS['csv'] = dataclasses.replace(formats.FORMATS['csv'], read=read)"
+        )
         serve = "from ballrace.recordings.apart import serve; serve()"
         made = f"import sys; sys.path[:] = sys.argv[1:]\n{start}\n{program}\n{serve}"
         monkeypatch.setattr(apart, "_PROGRAM", made)
@@ -80,7 +84,7 @@ def test_a_hundred_files_take_one_child(csv: Path) -> None:
 def test_a_child_that_ends_is_an_error_with_the_files_name(
     csv: Path, reading: Callable[[str], None], how: str
 ) -> None:
-    program = f"def end(path):\n    {how}\nhere.READERS['csv'] = end"
+    program = f"def end(path, reading):\n    {how}\ncsv_by(end)"
     reading(program)
     for _ in range(2):  # another child reads the next file, and ends as well
         with pytest.raises(br.FileError, match=r"sensor\.csv: ended the process that read it"):
@@ -98,13 +102,14 @@ def test_a_child_that_ends_is_an_error_with_the_files_name(
 def test_what_a_child_under_control_of_a_file_says_is_checked(
     csv: Path, reading: Callable[[str], None], answer: str
 ) -> None:
-    reading(f"os.write(1, {(answer + chr(10)).encode()!r}); os.read(0, 9); os._exit(0)")
+    # It has started; then it answers.
+    reading(f"os.write(1, {(chr(10) + answer + chr(10)).encode()!r}); os.read(0, 9); os._exit(0)")
     with pytest.raises(br.FileError, match=r"sensor\.csv: "):
         br.read(csv)
 
 
 def test_time_is_limited(csv: Path, reading: Callable[[str], None]) -> None:
-    reading("def wait(path):\n    while True: pass\nhere.READERS['csv'] = wait")
+    reading("def wait(path, reading):\n    while True: pass\ncsv_by(wait)")
     message = r"sensor\.csv: took longer than 0\.2 s to read; raise time_limit"
     with pytest.raises(br.FileError, match=message):
         br.read(csv, time_limit=0.2)
@@ -115,8 +120,8 @@ def test_memory_is_limited_and_the_limit_can_be_raised(
     csv: Path, reading: Callable[[str], None]
 ) -> None:
     reading(
-        "def fill(path):\n    return samples.Samples(columns={'a': np.ones(30_000_000)}, fs=1.0)\n"
-        "here.READERS['csv'] = fill"
+        "def fill(path, reading):\n    return samples.Samples(columns={'a': np.ones(30_000_000)}, fs=1.0)\n"
+        "csv_by(fill)"
     )
     with pytest.raises(br.FileError, match=r"sensor\.csv: .* more memory than there is; raise"):
         br.read(csv, memory_limit=1e8)
@@ -135,11 +140,11 @@ _memory.peak = peak
 
 FILL = """
 import time
-def fill(path):
+def fill(path, reading):
     taken = np.ones(int(path.read_text()))
     time.sleep(0.1)
     return samples.Samples(columns={'a': taken[:3]}, fs=1.0)
-here.READERS['csv'] = fill
+csv_by(fill)
 """
 
 
@@ -181,7 +186,7 @@ def test_without_a_clock_of_the_system_the_parent_ends_the_child(
     monkeypatch.setattr(apart, "_ALARM", None)
     reading(
         "from ballrace.recordings import apart; apart._ALARM = None\n"
-        "def wait(path):\n    while True: pass\nhere.READERS['csv'] = wait"
+        "def wait(path, reading):\n    while True: pass\ncsv_by(wait)"
     )
     with pytest.raises(br.FileError, match=r"sensor\.csv: took longer than 0\.5 s to read"):
         br.read(csv, time_limit=0.5)
@@ -251,6 +256,114 @@ def test_a_forked_process_has_a_child_of_its_own(csv: Path) -> None:
     command = [sys.executable, "-W", "ignore", "-c", program, str(csv)]
     ended = subprocess.run(command, capture_output=True, text=True, timeout=60.0, check=True)
     assert ended.stdout.split() == ["0", "3", "True"]
+
+
+FORKS = """
+import multiprocessing, os, sys, threading, time, ballrace as br
+from ballrace.recordings import apart
+br.read(sys.argv[1])
+waiting = threading.Thread(target=lambda: br.read(sys.argv[2], time_limit=600.0), daemon=True)
+waiting.start()
+while not apart._Own.lock.locked():
+    time.sleep(0.01)
+time.sleep(0.3)
+
+def work():
+    os._exit(0 if br.read(sys.argv[1]).n_samples == 3 else 1)
+
+started = [multiprocessing.get_context("fork").Process(target=work) for _ in range(4)]
+for one in started:
+    one.start()
+for one in started:
+    one.join(60.0)
+print([one.exitcode for one in started], waiting.is_alive(), flush=True)
+for one in started:
+    one.kill()
+os._exit(0)
+"""
+
+
+@pytest.mark.serial
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork")
+def test_a_process_that_is_forked_while_a_thread_reads_does_not_hang(
+    csv: Path, tmp_path: Path
+) -> None:
+    """The locks of Python's files, which the reading thread holds, would never be released there."""
+    slow = tmp_path / "slow.lvm"
+    slow.write_text("1\n2\n")
+    program = FORKS.replace(
+        "br.read(sys.argv[1])\n",
+        "apart._PROGRAM = apart._PROGRAM.replace('; serve()', "
+        "'; import ballrace.recordings.apart as a, time; old = a.read_here; "
+        'a.read_here = lambda p, f, r: (p.suffix == ".lvm" and time.sleep(600.0)) or old(p, f, r); serve()\')\n'
+        "br.read(sys.argv[1])\n",
+        1,
+    )
+    command = [sys.executable, "-W", "ignore", "-c", program, str(csv), str(slow)]
+    ended = subprocess.run(command, capture_output=True, text=True, timeout=120.0, check=True)
+    assert ended.stdout == "[0, 0, 0, 0] True\n"
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no pipes with names")
+@pytest.mark.parametrize("trusted", [False, True])
+def test_a_pipe_is_no_file(tmp_path: Path, trusted: bool) -> None:
+    """Opened as a file, it would wait for somebody who writes, before any clock runs."""
+    os.mkfifo(tmp_path / "a.csv")
+    with pytest.raises(br.FileError, match=r"a\.csv: is a pipe or a device, no file"):
+        br.read(tmp_path / "a.csv", 1.0, time_limit=10.0, trusted=trusted)
+    with pytest.raises(br.FileError, match="is a pipe or a device"):
+        br.read("/dev/null", 1.0, trusted=trusted)
+    with pytest.raises(OSError, match="directory"):
+        br.read(tmp_path, 1.0, trusted=trusted)
+    with pytest.raises(FileNotFoundError):
+        br.read(tmp_path / "none.csv", 1.0, trusted=trusted)
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGSTOP"), reason="no such signals")
+def test_a_stopped_child_is_not_waited_for(csv: Path) -> None:
+    assert br.read(csv).n_samples == 3
+    assert apart._Own.child is not None
+    os.kill(apart._Own.child._process.pid, signal.SIGSTOP)
+    with pytest.raises(br.FileError, match=r"sensor\.csv: took longer than 0\.3 s to read"):
+        br.read(csv, time_limit=0.3)
+    assert br.read(csv).n_samples == 3
+
+
+def test_a_child_that_cannot_be_ended_is_left_alone(
+    csv: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As one that waits for a network mount which does not answer: no signal ends it."""
+    apart.end_child()
+    assert br.read(csv).n_samples == 3
+    child = apart._Own.child
+    assert child is not None
+    os.kill(child._process.pid, signal.SIGSTOP)
+    end = child._process.kill
+    monkeypatch.setattr(child._process, "kill", lambda: None)
+    monkeypatch.setattr(apart, "_PATIENCE", 0.1)
+    with pytest.raises(br.FileError, match="took longer"):
+        br.read(csv, time_limit=0.3)
+    assert br.read(csv).n_samples == 3
+    end()
+    child._process.wait(10.0)
+
+
+def test_progress_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "a.csv"
+    path.write_text("1.5\n" * 200_000)
+    monkeypatch.setattr("ballrace.recordings.lines.PIECE", 1 << 16)
+    shares: list[float] = []
+    assert br.read(path, 1.0, progress=shares.append, trusted=True).n_samples == 200_000
+    assert len(shares) > 5
+    assert shares == sorted(shares)
+    assert shares[-1] == 1.0
+    assert br.read(path, 1.0, progress=True).n_samples == 200_000
+
+    def stop(_share: float) -> None:
+        raise KeyError("stopped")
+
+    with pytest.raises(KeyError, match="stopped"):
+        br.read(path, 1.0, progress=stop, trusted=True)
 
 
 @pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="no such signals")

@@ -1,4 +1,4 @@
-"""What the MATLAB files of public data sets hold; a function returns None for a file that is none of its own."""
+"""MATLAB files of public data sets and of LMS; a function returns None for a file of another kind."""
 
 from __future__ import annotations
 
@@ -7,14 +7,21 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .._units import canonical
 from ..errors import FileError
-from .samples import RATES, Samples
+from .rates import roundest
+from .sampled import cut
+from .samples import Samples
+from .titles import TIME_UNITS, time_unit
+from .tree import Leaf, Tree, from_tree
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator
     from pathlib import Path
 
     from numpy.typing import NDArray
+
+    from .reading import Reading
 
 _CWRU = re.compile(r"X(?P<number>\d+)_(?P<place>[A-Z]{2})_time")
 
@@ -22,12 +29,12 @@ _SPEED = "speed"
 """Column of Paderborn's files with the speed of the shaft [1/min]."""
 
 
-def cwru(path: Path, variables: Mapping[str, Any]) -> Samples | None:
+def cwru(path: Path, tree: Tree, reading: Reading) -> Samples | None:
     """Take the accelerations at drive end, fan end and base. Neither rate nor unit are in the file.
 
     Where it holds two records, as 99.mat does, the one of the file's name is taken.
     """
-    found = [match for name in variables if (match := _CWRU.fullmatch(name))]
+    found = [match for name in tree if (match := _CWRU.fullmatch(name))]
     numbers = {match["number"] for match in found}
     if not found:
         return None
@@ -36,87 +43,128 @@ def cwru(path: Path, variables: Mapping[str, Any]) -> Samples | None:
     if len(numbers) != 1:
         raise FileError(str(path), "holds several records, and its name is the number of none")
     (number,) = numbers
-    columns = {m["place"]: _vector(variables[m[0]]) for m in found if m["number"] == number}
-    rpm = variables.get(f"X{number}RPM")
-    shaft = None if rpm is None else float(np.ravel(rpm)[0]) / 60.0
-    return Samples(columns=_even(path, columns), shaft=shaft, metadata={"record": int(number)})
+    columns = {m["place"]: tree[m[0]] for m in found if m["number"] == number}
+    rpm = tree.get(f"X{number}RPM")
+    shaft = float(np.ravel(rpm.values)[0]) if isinstance(rpm, Leaf) else rpm
+    shaft = shaft / 60.0 if isinstance(shaft, float) else None
+    samples = from_tree(path, columns, reading, shaft=shaft)
+    samples.metadata["record"] = int(number)
+    return samples
 
 
-def paderborn(path: Path, variables: Mapping[str, Any]) -> Samples | None:
+def paderborn(path: Path, tree: Tree, reading: Reading) -> Samples | None:
     """Take a struct with the times ``X`` and the signals ``Y``, by rasters; the fastest are the columns."""
-    structs = {n: v for n, v in variables.items() if hasattr(v, "X") and hasattr(v, "Y")}
+    structs = {n: v for n, v in tree.items() if isinstance(v, dict) and {"X", "Y"} <= set(v)}
     if len(structs) != 1:
         return None
     ((name, struct),) = structs.items()
-    times = {str(x.Raster): np.atleast_1d(x.Data) for x in np.atleast_1d(struct.X)}
+    times = {str(x.get("Raster")): _vector(x.get("Data")) for x in _structs(struct["X"])}
     rasters: dict[str, Samples] = {}
-    for y in np.atleast_1d(struct.Y):
-        values, raster = _vector(np.atleast_1d(y.Data)), str(y.Raster)
+    for y in _structs(struct["Y"]):
+        values, raster, label = _vector(y.get("Data")), str(y.get("Raster")), str(y.get("Name"))
         if raster not in times or times[raster].size != values.size:
-            raise FileError(str(path), f"damaged: {y.Name} has not one time a sample")
+            raise FileError(str(path), f"its signal {label} has not one time a sample")
         group = rasters.setdefault(raster, Samples(columns={}, fs=_rate(path, times[raster])))
-        group.columns[str(y.Name)] = values
-        group.units[str(y.Name)] = _text(getattr(y, "Unit", ""))
+        group.columns[label] = values
+        group.units[label] = y["Unit"] if isinstance(y.get("Unit"), str) else ""
+    if not rasters:
+        raise FileError(str(path), "has no signals in the struct of its record")
     first, *others = sorted(rasters.values(), key=lambda group: -(group.fs or 0.0))
     speeds = [
         np.mean(group.columns[_SPEED]) for group in rasters.values() if _SPEED in group.columns
     ]
     first.shaft = float(speeds[0]) / 60.0 if speeds else None
     first.metadata, first.others = {"record": name}, others
-    return first
+    return cut(path, first, reading)
 
 
-def mfpt(path: Path, variables: Mapping[str, Any]) -> Samples | None:
+def _structs(value: Any) -> list[Tree]:
+    found = value if isinstance(value, list) else [value]
+    return [one for one in found if isinstance(one, dict)]
+
+
+def mfpt(path: Path, tree: Tree, reading: Reading) -> Samples | None:
     """Take a struct of rate ``sr``, acceleration ``gs`` [g], ``load`` [lb] and the shaft's ``rate`` [Hz]."""
-    struct: Any = variables.get("bearing")
-    if not (hasattr(struct, "sr") and hasattr(struct, "gs")):
+    struct = next(
+        (v for v in tree.values() if isinstance(v, dict) and {"sr", "gs"} <= set(v)), None
+    )
+    if struct is None:
         return None
-    try:
-        columns = {"acceleration": _vector(struct.gs)}
-        rate, load = (getattr(struct, name, None) for name in ("rate", "load"))
-        return Samples(
-            columns=columns,
-            fs=float(struct.sr),
-            units={"acceleration": "g"},
-            shaft=None if rate is None else float(rate),
-            metadata={} if load is None else {"load_lb": float(load)},
-        )
-    except (TypeError, ValueError) as error:
+    rate, load, sr = (struct.get(name) for name in ("rate", "load", "sr"))
+    values = _vector(struct["gs"])
+    if not isinstance(sr, float) or not values.size:
         raise FileError(
-            str(path), f"damaged: the struct bearing cannot be read ({error})"
-        ) from error
+            str(path), "damaged: the struct bearing cannot be read: it has no rate or no samples"
+        )
+    samples = Samples(
+        columns={"acceleration": values},
+        fs=sr,
+        units={"acceleration": "g"},
+        shaft=rate if isinstance(rate, float) else None,
+        metadata={"load_lb": load} if isinstance(load, float) else {},
+    )
+    return cut(path, samples, reading)
 
 
-def vectors(path: Path, variables: Mapping[str, Any]) -> Samples | None:
-    """Take all vectors of the greatest length by their names, and a number called ``fs`` or so as the rate."""
-    columns, fs = {}, None
-    for name, value in variables.items():
-        array = np.asarray(value)
-        if array.dtype.kind in "fiu" and array.size > 1 and max(array.shape) == array.size:
-            columns[name] = _vector(array)
-        elif array.dtype.kind in "fiu" and array.size == 1 and name in RATES:
-            fs = float(array.ravel()[0])
-    longest = max((x.size for x in columns.values()), default=0)
-    columns = {name: x for name, x in columns.items() if x.size == longest}
-    return Samples(columns=columns, fs=fs) if columns else None
+def lms(path: Path, tree: Tree, reading: Reading) -> Samples | None:
+    """Take structs with ``x_values.increment`` and ``y_values.values``, as LMS (Simcenter Testlab) has them."""
+    found: Tree = {}
+    for name, struct in _with_axes(tree):
+        x, y = struct["x_values"], struct["y_values"]
+        increment, values = x.get("increment"), y.get("values")
+        if not (isinstance(increment, float) and increment > 0.0 and isinstance(values, Leaf)):
+            continue
+        unit = time_unit(_label(x) or "s")
+        scale = TIME_UNITS[unit] if unit else None
+        if scale is None:
+            continue  # a spectrum, over Hz
+        label = _called(struct) or name
+        labels = label if isinstance(label, str) else "; ".join(label)
+        attributes: dict[str, Any] = {
+            "sampling_rate": roundest(1.0 / (increment * scale), 1e-6),
+            "unit": _label(y) or "",
+        }
+        if not isinstance(label, str):
+            attributes["names"], labels = label, name
+        found[labels if labels not in found else f"{labels} {name}"] = Leaf(
+            values.values, attributes
+        )
+    return from_tree(path, found, reading) if found else None
 
 
-def _vector(value: Any) -> NDArray[np.float64]:
-    return np.asarray(value, dtype=np.float64).ravel()
+def _with_axes(tree: Tree, prefix: str = "") -> Iterator[tuple[str, Tree]]:
+    for name, value in tree.items():
+        for place, struct in enumerate(_structs(value)):
+            full = f"{prefix}{name}" if place == 0 else f"{prefix}{name}_{place + 1}"
+            if all(isinstance(struct.get(axis), dict) for axis in ("x_values", "y_values")):
+                yield full, struct
+            else:
+                yield from _with_axes(struct, f"{full}.")
 
 
-def _even(path: Path, columns: dict[str, NDArray[np.float64]]) -> dict[str, NDArray[np.float64]]:
-    if len({x.size for x in columns.values()}) != 1:
-        raise FileError(str(path), "damaged: its columns are of different lengths")
-    return columns
+def _label(axis: Tree) -> str | None:
+    quantity = axis.get("quantity")
+    label = quantity.get("label") if isinstance(quantity, dict) else axis.get("unit")
+    return canonical(label) if isinstance(label, str) else None
 
 
-def _rate(path: Path, times: NDArray[np.float64]) -> float:
+def _called(struct: Tree) -> str | list[str] | None:
+    record = struct.get("function_record")
+    name = record.get("name") if isinstance(record, dict) else struct.get("name")
+    if isinstance(name, list):
+        return [str(one) for one in name]
+    return name if isinstance(name, str) else None
+
+
+def _vector(value: Any) -> NDArray[Any]:
+    """Return numbers as a row; an empty one of what is none."""
+    if isinstance(value, Leaf):
+        return np.ravel(value.values)
+    return np.array([value]) if isinstance(value, float) else np.empty(0)
+
+
+def _rate(path: Path, times: NDArray[Any]) -> float:
     """Return the rate of a raster [Hz], to the six digits that its times are sure of."""
     if times.size < 2 or not times[-1] > times[0]:
         raise FileError(str(path), "damaged: its times do not rise")
     return float(f"{(times.size - 1) / (times[-1] - times[0]):.6g}")
-
-
-def _text(value: Any) -> str:
-    return value if isinstance(value, str) else ""

@@ -3,20 +3,28 @@
 from __future__ import annotations
 
 import math
+import warnings
+from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 from .._io.files import as_path
-from .._numbers import RATES, real, sampling_rate
-from ..errors import FileError, SceneError
+from .._numbers import real
+from .._progress import Bar
+from .._text import printable
+from ..errors import FileWarning, SceneError
 from .apart import read_apart
-from .formats import by_contents
-from .here import READERS, read_here
+from .formats import FORMATS
+from .here import format_of, read_here
+from .reading import checked
 from .recording import Recording
 
 if TYPE_CHECKING:
     import os
+    from collections.abc import Callable, Iterable
     from pathlib import Path
 
+    from .reading import Chosen, Key
     from .samples import Samples
 
 __all__ = ["read"]
@@ -27,20 +35,30 @@ def read(
     fs: float | None = None,
     format: str | None = None,  # noqa: A002
     *,
+    skip: int | None = None,
+    columns: Chosen = None,
+    decimal: str | None = None,
+    time: Key | Iterable[Key] | bool | None = None,
+    time_unit: str | None = None,
+    start: float | None = None,
+    stop: float | None = None,
+    progress: bool | Callable[[float], object] = False,
     time_limit: float = 60.0,
     memory_limit: float = 4e9,
     trusted: bool = False,
 ) -> Recording:
     r"""Read a measured record, or one that ``write`` wrote.
 
-    Read are ``.mat`` files of the Case Western Reserve University (columns ``DE``, ``FE``, ``BA``), of Paderborn
-    University (``vibration_1``, …; slower ones in ``others``), of the MFPT society (``acceleration``) and plain
-    ones with vectors; CSV with or without header, times and units (``ay [m/s^2]``), with commas, semicolons,
-    tabs or spaces; WAV (whole numbers as shares of the full scale); Universal Files with data sets 58; HDF5; and
-    Parquet, also that of runs.
+    Read are text tables (CSV and whatever loggers export, LVM), MATLAB files of all versions, HDF5, WAV, Universal
+    Files with data sets 58, Parquet, also that of runs, NPY, NPZ, TDMS and Excel workbooks. In a text the table is
+    found by itself, with its separators, decimal marks, names and units; columns that are times, or count, are
+    recognised by their steps and are no signals. Names of data sets are known: of the Case Western Reserve
+    University (columns ``DE``, ``FE``, ``BA``), Paderborn University (``vibration_1``, …; slower ones in
+    ``others``), the MFPT society (``acceleration``) and LMS. What cannot be known is asked for: the message names
+    the argument.
 
     A child process reads the file, so that a damaged or malicious one can neither crash this process nor fill the
-    memory. It takes 0.3 s to start, reads all later files, too, and ends with this process.
+    memory. It takes some 0.2 s to start, reads all later files, too, and ends with this process.
 
     Parameters
     ----------
@@ -48,15 +66,36 @@ def read(
         The file.
     fs : float, optional
         Sampling rate [Hz]; needed where the file does not have it. Files of the Case Western Reserve University
-        never do: it is 12 or 48 kHz, as on the page of the record.
-    format : {"csv", "wav", "mat", "uff", "hdf5", "parquet"}, optional
-        By default what the name ends in, or else how the file begins.
+        never do: it is 12 or 48 kHz, as on the page of the record. Where times are too coarse for the rate, this
+        one counts, with a :class:`ballrace.FileWarning`; one that they contradict by more than 1 % is refused.
+    format : str, optional
+        One of csv (any text), wav, mat, uff, hdf5, parquet, tdms, npy, npz, xlsx; by default what the file begins
+        as, or else what its name ends in.
+    skip : int, optional
+        Lines of a text before the names, or before the first row.
+    columns : name, place, iterable of these, or mapping from them to new names, optional
+        Which columns are signals: ``["ax", "ay"]``, ``-1``, ``{4: "horizontal", 5: "vertical"}``. Places count
+        from 0, and those of times, too. By default all that are neither times nor counters.
+    decimal : {".", ","}, optional
+        Decimal mark of a text, where commas could also separate columns.
+    time : name, place, iterable of these, or False, optional
+        The column of times, or those of a clock from the longest unit to the shortest; False for none, so that
+        samples are taken to be at equal steps.
+    time_unit : {"s", "ms", "us", "ns", "min", "h", "d", "samples"}, optional
+        Unit of the times, where the file does not say it; it overrides the file.
+    start, stop : float, optional
+        Times from the first sample between which the record is read [s]; by default all of it. Of text no more is
+        held in memory.
+    progress : bool or callable
+        True shows a bar on a terminal or in a notebook while a text is read; a callable is called with the share
+        done, 0 to 1; an exception that it raises ends reading.
     time_limit : float
-        How long reading may take [s]; ``math.inf`` for any time.
+        How long reading may take [s]; ``math.inf`` for any time. Raise it for texts beyond a gigabyte.
     memory_limit : float
-        Memory that reading may take in addition to the libraries [bytes]; ``math.inf`` for any. Ten times the
-        samples, 8 bytes each, are enough. Linux enforces it. On macOS the child checks its memory every 10 ms, and
-        ends beyond it. On Windows only the declared size of a file is compared with it (HDF5, Parquet).
+        Memory that reading may take in addition to the libraries [bytes]; ``math.inf`` for any. Twice the
+        samples, 8 bytes each, are enough for text, ten times for any format. Linux enforces it. On macOS the child
+        checks its memory every 10 ms, and ends beyond it. On Windows only the declared size of a file is compared
+        with it (HDF5, Parquet, TDMS, NPY, NPZ).
     trusted : bool
         Whether to read in this process, without limits, which a damaged file may crash.
 
@@ -68,9 +107,12 @@ def read(
     Raises
     ------
     SceneError
-        An argument is not usable, or ``fs`` is missing, or differs from the file's rate.
+        An argument is not usable, or is needed and missing, or ``fs`` differs from the file's rate.
     FileError
-        The file is damaged, has no record, or takes more than the limits to read; the message says which.
+        The file is damaged, has no record, can be read in two ways, or takes more than the limits to read; the
+        message says which, and what to do.
+    InternalError
+        The reader has a fault.
     ImportError
         The library for this format is not installed (extra ``io``).
     OSError
@@ -87,44 +129,60 @@ def read(
     (1000.0, 'g', [0.1, 0.3, -0.2])
     """
     path = as_path(path)
-    fs = None if fs is None else sampling_rate(fs)
-    if format is not None and not (isinstance(format, str) and format in READERS):
-        raise SceneError("format", repr(format), f"one of {', '.join(READERS)}")
+    if format is not None and not (isinstance(format, str) and format in FORMATS):
+        raise SceneError("format", repr(format), f"one of {', '.join(FORMATS)}")
+    reading = checked(
+        fs=fs, skip=skip, columns=columns, decimal=decimal, time=time, time_unit=time_unit, start=start, stop=stop
+    )  # fmt: skip
     limits = {"time_limit": real(time_limit), "memory_limit": real(memory_limit)}
     for name, given in (("time_limit", time_limit), ("memory_limit", memory_limit)):
         if not limits[name] > 0.0:
             raise SceneError(name, repr(given), "above 0, or math.inf")
     if not isinstance(trusted, bool):
         raise SceneError("trusted", repr(trusted), "True or False")
-    with path.open("rb"):
-        pass
-    form = format or by_contents(path)
-    samples = read_here(path, form) if trusted else read_apart(path, form, **limits)
-    return _recording(path, samples, fs)
+
+    def samples(tell: Callable[[float], object]) -> Samples:
+        asked = replace(reading, tell=tell)
+        if trusted:
+            return read_here(path, format_of(path, format), asked)
+        return read_apart(path, format, asked, **limits)
+
+    if progress is True:
+        with Bar(path.name) as bar:
+            found = samples(bar.show)
+    else:
+        try:
+            found = samples(partial(_told, progress) if progress else reading.tell)
+        except _Stopped as stopped:
+            raise stopped.__cause__ or stopped from None
+    for note in found.notes:
+        warnings.warn(printable(f"{path}: {note}"), FileWarning, stacklevel=2)
+    return _recording(path, found)
 
 
-def _recording(path: Path, samples: Samples, fs: float | None) -> Recording:
-    recorded = _usable(path, samples.fs, fs)
-    if recorded is not None and fs is not None and not math.isclose(fs, recorded, rel_tol=1e-3):
-        raise SceneError("fs", str(fs), f"the rate in {path.name}, {recorded:g} Hz, or absent")
-    rate = fs if recorded is None else recorded
-    if rate is None:
+class _Stopped(BaseException):
+    """A function of the caller's, which is told about progress, has raised an exception."""
+
+
+def _told(progress: Callable[[float], object], share: float) -> None:
+    try:
+        progress(share)
+    except Exception as error:
+        raise _Stopped from error
+
+
+def _recording(path: Path, samples: Samples) -> Recording:
+    if samples.fs is None:
         raise SceneError("fs", "None", f"the sampling rate [Hz], which {path.name} does not have")
+    others = [
+        replace(other, fs=math.nan) if other.fs is None else other for other in samples.others
+    ]
     return Recording(
         columns=samples.columns,
-        fs=rate,
+        fs=samples.fs,
         units=samples.units,
         shaft=samples.shaft,
         source=str(path),
         metadata=samples.metadata,
-        others=tuple(_recording(path, other, None) for other in samples.others),
+        others=tuple(_recording(path, other) for other in others),
     )
-
-
-def _usable(path: Path, rate: float | None, fs: float | None) -> float | None:
-    """Return the rate of a file; an unusable one counts as missing where another is given."""
-    if rate is None or RATES[0] <= rate <= RATES[1]:
-        return rate
-    if fs is None:
-        raise FileError(str(path), f"has a sampling rate of {rate:g} Hz; give fs if you know it")
-    return None

@@ -1,7 +1,7 @@
-"""MATLAB files: of the Case Western Reserve University, Paderborn University, the MFPT society, or vectors.
+"""MATLAB files: of the Case Western Reserve University, Paderborn University, MFPT, LMS, or any vectors.
 
 The keys of Case Western are ``X105_DE_time`` and so on, and ``X105RPM``. Its files have neither the sampling rate
-nor the unit.
+nor the unit. Files of version 7.3 are HDF5, with the same content.
 """
 
 from __future__ import annotations
@@ -13,12 +13,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..errors import FileError, SceneError
-from .datasets import cwru, mfpt, paderborn, vectors
+from .datasets import cwru, lms, mfpt, paderborn
 from .hierarchical import contents
+from .sampled import cut
 from .samples import Samples, from_header
+from .tree import Leaf, Tree, from_tree
 
 if TYPE_CHECKING:
     from pathlib import Path
+
+    from .reading import Reading
 
 _LONGEST = 63
 """Most characters of a name in MATLAB."""
@@ -53,7 +57,7 @@ def write(samples: Samples, temporary: Path, path: Path) -> None:
     savemat(temporary, variables, appendmat=False, do_compression=True)
 
 
-def read(path: Path) -> Samples:
+def read(path: Path, reading: Reading) -> Samples:
     """Read a record of any of these kinds.
 
     Raises
@@ -61,36 +65,55 @@ def read(path: Path) -> Samples:
     FileError
         It is damaged, no MATLAB file, or has no record.
     """
-    variables = _variables(path)
-    if "ballrace" in variables:
-        return _ours(path, variables)
-    for kind in (cwru, paderborn, mfpt, vectors):
-        found = kind(path, variables)
+    tree = _tree(path)
+    if isinstance(tree.get("ballrace"), str):
+        return cut(path, _ours(path, tree), reading)
+    for kind in (cwru, paderborn, mfpt, lms):
+        found = kind(path, tree, reading)
         if found is not None:
             return found
-    raise FileError(str(path), f"has no record among {', '.join(variables) or 'nothing'}")
+    return from_tree(path, tree, reading)
 
 
-def _variables(path: Path) -> dict[str, Any]:
+def _tree(path: Path) -> Tree:
+    """Return the variables of a file of any version."""
     from scipy.io import loadmat
 
     with path.open("rb") as file:
         start = file.read(20)
     if start.startswith((b"MATLAB 7.3", b"\x89HDF")):
-        arrays, _, single = contents(path)
-        return {**arrays, **{name: np.array([value]) for name, value in single.items()}}
+        return contents(path, matlab=True)
     try:
         found = loadmat(path, squeeze_me=True, struct_as_record=False, appendmat=False)
     except Exception as error:
         raise FileError(str(path), f"not a MATLAB file, or damaged ({error})") from error
-    return {name: value for name, value in found.items() if not name.startswith("__")}
+    return {name: _plain(value) for name, value in found.items() if not name.startswith("__")}
 
 
-def _ours(path: Path, variables: dict[str, Any]) -> Samples:
-    header = str(variables["ballrace"])
+def _plain(value: Any) -> Any:
+    """Return a value of a file as a leaf, a number, a text, a tree or a list of these; None of what is none."""
+    if hasattr(value, "_fieldnames"):
+        return {name: _plain(getattr(value, name)) for name in value._fieldnames}
+    if isinstance(value, str):
+        return value
+    array = np.asarray(value)
+    if array.dtype.kind == "U":
+        return [str(text) for text in array.ravel()]
+    if array.dtype.kind == "O":
+        return [_plain(one) for one in array.ravel(order="F")]
+    if array.dtype.kind not in "fiub" or array.size == 0:
+        return None
+    return float(array.ravel()[0]) if array.size == 1 else Leaf(array)
+
+
+def _ours(path: Path, tree: Tree) -> Samples:
+    header = tree["ballrace"]
     try:
-        keys = np.atleast_1d(variables["keys"]).tolist()
-        vectors = [np.atleast_1d(np.asarray(variables[key], dtype=np.float64)) for key in keys]
+        keys = tree["keys"]
+        leaves = [tree[key] for key in ([keys] if isinstance(keys, str) else keys)]
+        vectors = [
+            np.ravel(x.values if isinstance(x, Leaf) else x).astype(np.float64) for x in leaves
+        ]
         columns = dict(zip(json.loads(header)["columns"], vectors, strict=True))
     except (KeyError, TypeError, ValueError) as error:
         raise FileError(str(path), f"damaged: a column is missing ({error!r})") from error

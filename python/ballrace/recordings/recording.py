@@ -4,17 +4,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import InitVar, dataclass, field
 from types import MappingProxyType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .._numbers import real, real_row, sampling_rate
+from .._units import canonical
 from ..errors import SceneError
 from .columns import Columns
 from .windows import Origin
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 __all__ = ["Recording"]
 
@@ -23,16 +27,17 @@ __all__ = ["Recording"]
 class Recording(Columns):
     """A measured record: a mapping from the names of columns to arrays, at one sampling rate.
 
-    Made by :func:`ballrace.read`, or from arrays.
+    Made by :func:`ballrace.read`, or from arrays: ``br.Recording(array, fs=25_600.0, unit="g")``.
 
     Attributes
     ----------
     columns : mapping of str to ndarray
-        Columns, each of shape (n,).
+        Columns, each of shape (n,). Given may also be an array alone: of shape (n,) it becomes the column ``x``,
+        of shape (n, k) the columns ``x_1`` to ``x_k``.
     fs : float
-        Sampling rate [Hz].
+        Sampling rate [Hz]; NaN in ``others`` where the file does not tell it.
     units : mapping of str to str
-        Unit of each column; empty where it is not known.
+        Unit of each column; empty where it is not known. Common spellings (``m/s2``, ``G``) become one.
     shaft : float or None
         Mean rate of the shaft [Hz], if it is known.
     source : str
@@ -40,7 +45,9 @@ class Recording(Columns):
     metadata : mapping
         Further metadata of the file.
     others : tuple of Recording
-        Columns of the same file at other rates.
+        Columns of the same file of other lengths or rates.
+    unit : str
+        Unit of all columns, given in place of ``units``; no attribute.
 
     Raises
     ------
@@ -55,26 +62,47 @@ class Recording(Columns):
     <Recording: 1 columns, 12000 samples at 12000 Hz: sensor [g]>
     """
 
-    columns: Mapping[str, NDArray[np.float64]]
+    columns: Mapping[str, NDArray[np.float64]] = field(kw_only=False)
     fs: float
     units: Mapping[str, str] = field(default_factory=dict)
     shaft: float | None = None
     source: str = ""
     metadata: Mapping[str, Any] = field(default_factory=dict)
     others: tuple[Recording, ...] = ()
+    unit: InitVar[str] = ""
 
-    def __post_init__(self) -> None:
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            columns: Mapping[str, Any] | ArrayLike,
+            *,
+            fs: float,
+            units: Mapping[str, str] = ...,
+            shaft: float | None = None,
+            source: str = "",
+            metadata: Mapping[str, Any] = ...,
+            others: tuple[Recording, ...] = (),
+            unit: str = "",
+        ) -> None: ...
+
+    def __post_init__(self, unit: str) -> None:
+        object.__setattr__(self, "columns", _by_names(self.columns))
+        if unit:
+            object.__setattr__(self, "units", self.units or dict.fromkeys(self.columns, unit))
         for name in ("columns", "units", "metadata"):
             if not isinstance(getattr(self, name), Mapping):
-                raise SceneError(name, type(getattr(self, name)).__name__, "a mapping by names")
+                allowed = "a mapping by names" + (", or an array" if name == "columns" else "")
+                raise SceneError(name, type(getattr(self, name)).__name__, allowed)
         columns = {str(name): _checked(str(name), x) for name, x in self.columns.items()}
         if len({x.size for x in columns.values()}) != 1:
             sizes = ", ".join(f"{name}: {x.size}" for name, x in columns.items())
             raise SceneError("columns", sizes or "none", "at least one, all of one length")
-        sampling_rate(self.fs)
+        if not (isinstance(self.fs, float) and math.isnan(self.fs)):
+            sampling_rate(self.fs)
         if self.shaft is not None and not 0.0 <= real(self.shaft) < math.inf:
             raise SceneError("shaft", repr(self.shaft), "a rate, or None")
-        units = {name: str(self.units.get(name, "")) for name in columns}
+        units = {name: canonical(str(self.units.get(name, ""))) for name in columns}
         object.__setattr__(self, "columns", MappingProxyType(columns))
         object.__setattr__(self, "units", MappingProxyType(units))
 
@@ -92,7 +120,10 @@ class Recording(Columns):
     def __repr__(self) -> str:
         size = f"{len(self)} columns, {self.n_samples} samples at {self.fs:g} Hz"
         names = ", ".join(f"{name} [{self.units[name] or '?'}]" for name in self)
-        return f"<Recording: {size}: {names}>"
+        beside = ", ".join(
+            f"{name} ({one.n_samples} samples)" for one in self.others for name in one
+        )
+        return f"<Recording: {size}: {names}{beside and f'; others: {beside}'}>"
 
     @property
     def n_samples(self) -> int:
@@ -118,6 +149,16 @@ class Recording(Columns):
 
 def _remade(fields: dict[str, Any]) -> Recording:
     return Recording(**fields)
+
+
+def _by_names(array: object) -> dict[str, Any]:
+    """Return a vector, or the columns of a matrix, by names; anything else as it is."""
+    if not hasattr(array, "__array__"):
+        return array  # type: ignore[return-value]
+    values = np.asanyarray(array)
+    if values.ndim == 2 and values.dtype.kind in "biuf":
+        return {f"x_{place + 1}": values[:, place] for place in range(values.shape[1])}
+    return {"x": values} if values.dtype.kind in "biuf" else array  # type: ignore[return-value]
 
 
 def _checked(name: str, x: Any) -> NDArray[np.float64]:

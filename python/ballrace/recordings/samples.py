@@ -15,17 +15,6 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from pathlib import Path
 
-RATES = (
-    "sampling_rate",
-    "fs",
-    "Fs",
-    "sample_rate",
-    "SampleFrequency",
-    "SampleRate",
-    "SamplingRate",
-)
-"""Attributes or single numbers of a file that may be the rate [Hz]."""
-
 
 @dataclass(kw_only=True)
 class Samples:
@@ -34,7 +23,7 @@ class Samples:
     Attributes
     ----------
     columns : dict of str to ndarray
-        Columns, each of shape (n,).
+        Columns, each of shape (n,), of any numeric type.
     fs : float or None
         Sampling rate [Hz]; None where the file does not have it.
     units : dict of str to str
@@ -44,15 +33,18 @@ class Samples:
     metadata : dict
         Further metadata that JSON can hold.
     others : list of Samples
-        Columns at other rates.
+        Columns of other lengths or rates.
+    notes : list of str
+        What the caller is to be warned of.
     """
 
-    columns: dict[str, NDArray[np.float64]]
+    columns: dict[str, NDArray[Any]]
     fs: float | None = None
     units: dict[str, str] = field(default_factory=dict)
     shaft: float | None = None
     metadata: dict[str, Any] = field(default_factory=dict)
     others: list[Samples] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
 
     @property
     def n_samples(self) -> int:
@@ -74,7 +66,7 @@ class Samples:
             raise SceneError("metadata", f"({error})", "what JSON can hold") from None
 
 
-def from_header(path: Path, text: str, columns: Mapping[str, NDArray[np.float64]]) -> Samples:
+def from_header(path: Path, text: str, columns: Mapping[str, NDArray[Any]]) -> Samples:
     """Return columns with the metadata of :meth:`Samples.header`.
 
     Raises

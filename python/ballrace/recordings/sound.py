@@ -14,12 +14,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..errors import FileError, SceneError
+from .sampled import cut
 from .samples import Samples, from_header
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from numpy.typing import NDArray
+
+    from .reading import Reading
 
 _FULL = {"u1": 128.0, "i2": 2.0**15, "i4": 2.0**31}
 """Full scale of whole numbers; scipy gives those of 24 bits as the upper ones of 32."""
@@ -44,7 +47,7 @@ def write(samples: Samples, temporary: Path, path: Path) -> None:
     temporary.write_bytes(_commented(buffer.getvalue(), samples.header()))
 
 
-def read(path: Path) -> Samples:
+def read(path: Path, reading: Reading) -> Samples:
     """Read the channels: floats as they are, whole numbers as shares of the full scale.
 
     Raises
@@ -63,14 +66,19 @@ def read(path: Path) -> Samples:
             fs, data = wavfile.read(io.BytesIO(content))
     except (ValueError, EOFError, struct.error, wavfile.WavFileWarning) as error:
         raise FileError(str(path), f"not a WAV file, or damaged ({error})") from error
+    if not data.size:
+        raise FileError(str(path), "not a WAV file, or damaged: it has no samples")
     channels = data.reshape(len(data), -1).astype(np.float64).T
     if header := _comment(content):
         names = _names(header)
-        return from_header(path, header, dict(zip(names, channels, strict=False)))
+        return cut(
+            path, from_header(path, header, dict(zip(names, channels, strict=False))), reading
+        )
     unit, channels = _scaled(channels, data.dtype)
     names = [f"channel_{place + 1}" for place in range(len(channels))]
     columns = dict(zip(names, channels, strict=True))
-    return Samples(columns=columns, fs=float(fs), units=dict.fromkeys(names, unit))
+    samples = Samples(columns=columns, fs=float(fs), units=dict.fromkeys(names, unit))
+    return cut(path, samples, reading)
 
 
 def _scaled(

@@ -9,20 +9,35 @@ from __future__ import annotations
 import errno
 import re
 import warnings
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from .._libraries import needed
+from .._units import canonical
 from ..errors import FileError, SceneError
+from .rates import roundest
+from .sampled import cut
 from .samples import Samples
+from .times import Column, examined
+from .titles import TIME_UNITS, time_unit
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from numpy.typing import NDArray
 
+    from .reading import Reading
+
 _TIME_RESPONSE = 1
+_TYPES = {
+    0: "general", 1: "time response", 2: "auto spectrum", 3: "cross spectrum", 4: "frequency response function",
+    5: "transmissibility", 6: "coherence", 7: "auto correlation", 8: "cross correlation",
+    9: "power spectral density", 10: "energy spectral density", 11: "probability density", 12: "spectrum",
+}  # fmt: skip
+"""Function types of the format, by its names."""
+
 _TIME, _ACCELERATION, _UNKNOWN = 17, 12, 0
 """Kinds of data on an axis, after the format."""
 
@@ -78,8 +93,8 @@ def _ordinate(name: str, unit: str, x: NDArray[np.float64]) -> dict[str, Any]:
     return {"id1": name, "data": x} | labels
 
 
-def read(path: Path) -> Samples:
-    """Read all time responses of the rate and length that the first has.
+def read(path: Path, reading: Reading) -> Samples:
+    """Read all time responses; those of another rate or length than the first are ``others``.
 
     Raises
     ------
@@ -93,46 +108,78 @@ def read(path: Path) -> Samples:
         found = pyuff.UFF(str(path)).read_sets()
     except Exception as error:
         raise FileError(str(path), f"not a Universal File, or damaged ({error})") from error
-    sets = [s for s in (found if isinstance(found, list) else [found]) if _is_response(s)]
+    # Of sets that it does not know, pyuff gives none.
+    functions = [
+        s
+        for s in (found if isinstance(found, list) else [found])
+        if isinstance(s, dict) and s.get("type") == 58
+    ]
+    sets = [one for one in functions if _is_response(one)]
     if not sets:
-        raise FileError(str(path), "has no time response (data set 58)")
+        kinds = sorted({_TYPES.get(int(one.get("func_type", -1)), "unknown") for one in functions})
+        has = f"; its functions are of type {', '.join(kinds)}" if kinds else ""
+        raise FileError(
+            str(path), f"has no time response (data set 58){has}; export the time signal"
+        )
     samples = Samples(columns={})
     for data in sets:
-        _take(path, data, samples)
-    return samples
+        _take(path, data, samples, reading)
+    # The unit of the axis was taken as it was given.
+    return cut(path, samples, replace(reading, time_unit=None))
 
 
-def _is_response(data: Any) -> bool:
-    """Whether a data set is a response; of sets that it does not know, pyuff gives none."""
-    return (
-        isinstance(data, dict)
-        and data.get("type") == 58
-        and data.get("func_type") == _TIME_RESPONSE
-    )
+def _is_response(data: dict[str, Any]) -> bool:
+    """Whether a function is a real signal over time: a time response, or a general one on an axis of time."""
+    kind, axis = data.get("func_type"), data.get("abscissa_spec_data_type")
+    label = str(data.get("abscissa_axis_units_lab", "")).strip()
+    over_time = axis == _TIME or (axis == _UNKNOWN and time_unit(label) is not None)
+    real = not np.iscomplexobj(data.get("data", ()))
+    return real and (kind == _TIME_RESPONSE or (kind == 0 and over_time))
 
 
-def _take(path: Path, data: dict[str, Any], samples: Samples) -> None:
+def _take(path: Path, data: dict[str, Any], samples: Samples, reading: Reading) -> None:
     """Add a data set to the columns; one of another rate or length than the first to the others."""
     x = np.asarray(data["data"], dtype=np.float64)
     if x.size != data["num_pts"] or x.size < 2:
         raise FileError(str(path), f"damaged: {x.size} numbers where {data['num_pts']} should be")
     exact = _EXACT.search(data["id5"])
-    fs = float(exact["fs"]) if exact else _rate(path, data)
+    fs = float(exact["fs"]) if exact else _rate(path, data, reading)
     rest = samples
     if samples.columns and (fs, x.size) != (samples.fs, samples.n_samples):
-        rest = Samples(columns={})
-        samples.others.append(rest)
+        alike = [one for one in samples.others if (one.fs, one.n_samples) == (fs, x.size)]
+        rest = alike[0] if alike else Samples(columns={})
+        if not alike:
+            samples.others.append(rest)
     name = data["id1"].strip()
     if name in ("", "NONE") or name in rest.columns:
         name = f"{name}_{data['rsp_node']}".removeprefix("NONE").lstrip("_")
+    if name in rest.columns:
+        name = f"{name}_{len(rest.columns) + 1}"
     unit = data["ordinate_axis_units_lab"].strip()
     rest.columns[name], rest.fs = x, fs
-    rest.units[name] = "" if unit == "NONE" else unit
+    rest.units[name] = "" if unit == "NONE" else canonical(unit)
     rest.shaft = float(exact["shaft"]) if exact and exact["shaft"] else None
 
 
-def _rate(path: Path, data: dict[str, Any]) -> float:
-    step = float(data["abscissa_inc"] if data["abscissa_spacing"] else np.diff(data["x"]).mean())
+def _rate(path: Path, data: dict[str, Any], reading: Reading) -> float | None:
+    """Return the sampling rate by the axis, in the unit of its label; None where only the caller knows it [Hz]."""
+    label = str(data.get("abscissa_axis_units_lab", "")).strip()
+    unit = reading.time_unit or ("s" if label in ("", "NONE") else time_unit(label))
+    scale = TIME_UNITS[unit] if unit is not None else None
+    if scale is None:
+        if reading.fs is not None:
+            return None
+        allowed = f"one of {', '.join(TIME_UNITS)}: the axis of {path.name} is in {label!r}; or fs="
+        raise SceneError("time_unit", "None", allowed)
+    if data["abscissa_spacing"]:
+        step = float(data["abscissa_inc"]) * scale
+        # The format has six digits of it.
+        within = 0.5 * 10.0 ** (np.floor(np.log10(step)) - 5) / step if step > 0.0 else 0.0
+    else:
+        steps = examined(Column(name="abscissa", values=np.asarray(data["x"], dtype=np.float64)))
+        if steps is None or not (steps.are_equal or steps.are_rounded):
+            raise FileError(str(path), "its times are not at equal steps")
+        step, within = steps.mean * scale, steps.within
     if not 0.0 < step < float("inf"):
         raise FileError(str(path), f"damaged: a step of {step} s between samples")
-    return float(f"{1.0 / step:.5g}")
+    return roundest(1.0 / step, max(within, 1e-12))

@@ -6,18 +6,12 @@ from typing import TYPE_CHECKING
 
 from .._io.files import as_path
 from .._io.whole import whole
-from . import hierarchical, matlab, parquet, sound, text, universal
 from .formats import by_name
 
 if TYPE_CHECKING:
     import os
 
     from .samples import Samples
-
-_WRITERS = {
-    "csv": text.write, "wav": sound.write, "mat": matlab.write, "uff": universal.write,
-    "hdf5": hierarchical.write, "parquet": parquet.write,
-}  # fmt: skip
 
 
 def write(samples: Samples, path: str | os.PathLike[str]) -> None:
@@ -33,6 +27,7 @@ def write(samples: Samples, path: str | os.PathLike[str]) -> None:
         It cannot be written.
     """
     path = as_path(path)
-    writer = _WRITERS[by_name(path)]
+    writer = by_name(path).write
+    assert writer is not None
     with whole(path) as temporary:
         writer(samples, temporary, path)

@@ -70,11 +70,13 @@ def trend(
     Parameters
     ----------
     records : iterable of Signals, Measurement, Recording, Channel or array_like
-        In the order of time, all at one sampling rate; a generator that reads files is enough.
+        In the order of time, all at one sampling rate; a generator that reads files is enough, or
+        :func:`ballrace.read_folder`.
     bearing, speed_rpm, outer_rpm, fs, column, unit, row, speed_within, false_alarm, machine, seed
         As of :func:`ballrace.diagnose`.
     times : array_like, shape (n,), optional
-        Times of the records, increasing, in any unit; by default 0, 1, 2, …
+        Times of the records, increasing, in any unit; by default those of :func:`ballrace.read_folder`, or 0, 1,
+        2, …
     baseline : int
         Number of first records that are known to be healthy, 3 and more.
 
@@ -126,6 +128,7 @@ def trend(
         wanted = f"{baseline + 2} and more: the baseline and two"
         raise SceneError("records", f"{len(taken)} records", wanted)
     band = max(taken, key=lambda one: one.z).band
+    times = getattr(records, "times", None) if times is None else times
     table = _table(taken, band, _checked_times(times, len(taken)))
     assert pool is not None
     limits, departures = _departures(table, int(baseline), pool.count)
