@@ -505,3 +505,22 @@ def test_a_missing_library_is_one_line(
     assert message.startswith("ballrace: ballrace explore needs marimo"), message
     assert message.count("\n") == 1
     assert message.endswith('pip install "ballrace[app]"\n')
+
+
+def test_what_a_file_does_not_say_is_said_on_the_command_line(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    """A clock in µs, a decimal comma, two lines of something else, a part of the record."""
+    x = np.sin(2.0 * np.pi * 50.0 * np.arange(2000) / 1000.0)
+    lines = [f"{1000 * k};{value:.6f}".replace(".", ",") for k, value in enumerate(x)]
+    path = tmp_path / "a.txt"
+    path.write_text("\n".join(["1;2", "3;4", *lines]))
+    assert "time_unit" in refused(capsys, "spectrum", str(path), "--skip", "2")
+    said = ["--skip", "2", "--decimal", ",", "--time", "0", "--time-unit", "us", "--columns", "-1"]
+    assert main(["spectrum", str(path), "--plain", *said, "--start", "0.5", "--stop", "1.5"]) == 0
+    assert "50.00" in capsys.readouterr().out
+    assert (
+        main(["spectrum", str(path), "--plain", "--skip", "2", "--time", "none", "--fs", "1000"])
+        == 0
+    )
+    assert "columns" in refused(capsys, "spectrum", str(path), *said[:-1], "7")

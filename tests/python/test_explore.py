@@ -320,6 +320,20 @@ def test_a_damaged_file_is_refused_by_its_own_name() -> None:
     assert "/tmp" not in str(caught.value)
 
 
+def test_what_a_dropped_file_does_not_say_is_said_by_controls() -> None:
+    empty = {"skip": 0, "columns": "", "decimal": None, "time": "", "time_unit": None}
+    assert (
+        beside.received("a.csv", b"0.5\n" * 50, 1000.0, **beside.said_by(empty)).record.fs == 1000.0
+    )
+    lines = "".join(f"{40 * k};{k % 7},{k % 3}\n" for k in range(50))
+    said = {"skip": 2, "columns": "1", "decimal": ",", "time": "0", "time_unit": "us"}
+    dropped = beside.received("a.csv", f"1;2\n3;4\n{lines}".encode(), None, **beside.said_by(said))
+    assert (list(dropped.record), dropped.record.fs) == (["column_2"], 25_000.0)
+    assert beside.said_by(empty | {"time": " none", "columns": "a, -1"}) == {
+        "skip": None, "decimal": None, "time_unit": None, "columns": ["a", -1], "time": False,
+    }  # fmt: skip
+
+
 def test_a_saved_scene_is_the_scene(begun: Settings) -> None:
     scene = begun.moved(damage="dent", moment=1.0, oil="vg68").scene()
     assert br.Scene.from_toml(saved.scene_file(scene).decode()) == scene

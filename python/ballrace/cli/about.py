@@ -25,7 +25,7 @@ __all__ = ["add_commands", "version"]
 
 _EXTRAS = {
     "numpy": "", "polars": "", "scipy": "", "plotly": "plot", "h5py": "io", "pyuff": "io",
-    "distributed": "campaign", "marimo": "app",
+    "nptdms": "io", "fastexcel": "io", "distributed": "campaign", "marimo": "app",
 }  # fmt: skip
 """Libraries by the extra that installs them; without one they always are."""
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 import argparse
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..errors import SceneError
+from ..recordings.reading import key_of
 from ..scene import Scene
 
 if TYPE_CHECKING:
@@ -21,6 +22,7 @@ __all__ = [
     "add_speeds",
     "added",
     "read_scene",
+    "said_of",
 ]
 
 Commands = argparse._SubParsersAction
@@ -56,11 +58,51 @@ def add_scene(parser: argparse.ArgumentParser) -> None:
 
 
 def add_signals(parser: argparse.ArgumentParser) -> None:
-    """Add the argument of a file of signals."""
+    """Add the argument of a file of signals, and what may have to be said about it."""
     parser.add_argument(
         "file", type=Path, metavar="FILE",
-        help="signals: Parquet, CSV, WAV, MATLAB, UFF58, HDF5; - reads Parquet from standard input",
+        help="signals: a text table (CSV, LVM), MATLAB, HDF5, WAV, UFF58, Parquet, NPY, NPZ, TDMS, Excel; "
+        "- reads Parquet from standard input",
     )  # fmt: skip
+    parser.add_argument(
+        "--fs", type=float, metavar="HZ", help="sampling rate, where the file does not have it"
+    )
+    file = parser.add_argument_group("of a file that does not say it itself")
+    file.add_argument(
+        "--skip", type=int, metavar="N", help="lines of a text before the names or the first row"
+    )
+    file.add_argument(
+        "--columns", nargs="+", metavar="COLUMN",
+        help="columns that are signals, by their names or places from 0 (default: all but times and counters)",
+    )  # fmt: skip
+    file.add_argument("--decimal", choices=(".", ","), help="decimal mark of a text")
+    file.add_argument(
+        "--time", nargs="+", metavar="COLUMN",
+        help="column of the times, or columns of a clock, by names or places; none: no column is one",
+    )  # fmt: skip
+    file.add_argument(
+        "--time-unit", metavar="UNIT", help="unit of the times: s, ms, us, ns, min, h, d or samples"
+    )
+    file.add_argument(
+        "--start", type=float, metavar="SECONDS", help="read from here on (default: 0)"
+    )
+    file.add_argument(
+        "--stop", type=float, metavar="SECONDS", help="read until here (default: all)"
+    )
+
+
+def said_of(options: argparse.Namespace) -> dict[str, Any]:
+    """Return what :func:`add_signals` has taken as arguments of :func:`ballrace.read`, without the file."""
+    said = {
+        name: getattr(options, name)
+        for name in ("fs", "skip", "decimal", "time_unit", "start", "stop")
+    }
+    for name in ("columns", "time"):
+        keys = getattr(options, name)
+        said[name] = None if keys is None else [key_of(key) for key in keys]
+    if said["time"] == ["none"]:
+        said["time"] = False
+    return said
 
 
 def add_speeds(parser: argparse.ArgumentParser, default: str, of: str = "") -> None:

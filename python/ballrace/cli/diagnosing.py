@@ -6,13 +6,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, get_args
 
 from .._text import printable
+from .._units import canonical
 from ..diagnosis import diagnose
 from ..diagnosis.result import header_of, reason, width_of
 from ..diagnosis.severity import Machine
 from ..errors import SceneError
 from ..report.writing import check_page
 from ..scene import Scene
-from .arguments import Commands, add_signals, add_speeds, added
+from .arguments import Commands, add_signals, add_speeds, added, said_of
 from .signals import local, read_columns
 from .text import print_size, print_table
 
@@ -40,15 +41,15 @@ def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:
         help="how far the speed may be off, 0 to 0.08 (default: as the record shows it, of a run 0)",
     )  # fmt: skip
     found.add_argument(
-        "--fs", type=float, metavar="HZ", help="sampling rate, where the file does not have it"
-    )
-    found.add_argument(
         "--channel",
         metavar="NAME",
         help="column (default: outer.ay if there is one, else the first)",
     )
     found.add_argument(
-        "--unit", choices=("m/s^2", "g"), help="unit, where the file does not have it"
+        "--unit",
+        type=canonical,
+        choices=("m/s^2", "g"),
+        help="unit, where the file does not have it",
     )
     found.add_argument(
         "--false-alarm", type=float, default=0.01, metavar="SHARE",
@@ -71,7 +72,7 @@ def _diagnose(options: argparse.Namespace) -> None:
     if options.output is not None:
         check_page(options.output, "output")
     with local(options.file) as path:
-        record = read_columns(path, options.fs)
+        record = read_columns(path, said_of(options))
         if options.channel is not None and options.channel not in record:
             raise SceneError("channel", repr(options.channel), f"one of {', '.join(record)}")
         found = diagnose(

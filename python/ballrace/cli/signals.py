@@ -9,7 +9,7 @@ import sys
 import tempfile
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from .. import spectra
 from .._io.files import PARQUET, check_writable
@@ -20,12 +20,12 @@ from ..errors import SceneError
 from ..frequencies.operating import fault_frequencies, spin_of
 from ..recordings import read
 from ..signals import Signals
-from .arguments import Commands, add_signals, add_speeds, added
+from .arguments import Commands, add_signals, add_speeds, added, said_of
 from .text import print_size, print_table
 
 if TYPE_CHECKING:
     import argparse
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
     from ..frequencies.operating import FaultFrequencies
     from ..recordings.columns import Columns
@@ -126,7 +126,7 @@ def _spectrum(options: argparse.Namespace) -> None:
             raise SceneError("output", str(options.output), "a file that ends in .csv or .html")
         check_writable(options.output)
     with local(options.file) as path:
-        out = read_columns(path)
+        out = read_columns(path, said_of(options))
         rates = _rates(out, options.bearing, options.rpm, options.outer_rpm)
         name = options.column or out.channel().name
         if name not in out:
@@ -147,21 +147,25 @@ def _spectrum(options: argparse.Namespace) -> None:
             csv.writer(file).writerows([("frequency", "value"), *lines])
 
 
-def read_columns(path: Path, fs: float | None = None) -> Columns:
-    """Read a run, which has its scene, or a record, whose sampling rate may have to be given [Hz]."""
+def read_columns(path: Path, said: Mapping[str, Any]) -> Columns:
+    """Read a run, which has its scene, or a record, about which something may have to be said.
+
+    A run of which a part is asked for is read as a record.
+    """
     out = None
+    whole = all(value is None for name, value in said.items() if name != "fs")
     try:
         # One without a hash was written by something else, and is read in a child process.
-        if path.suffix.lower() in PARQUET and is_sealed(path):
+        if whole and path.suffix.lower() in PARQUET and is_sealed(path):
             out = Signals.read_parquet(path)
     except SceneError:
         raise
     except ValueError:
         pass  # damaged, or a record: reading it shows
     if out is None:
-        return read(path, fs)
-    if fs is not None and not math.isclose(fs, out.fs, rel_tol=1e-3):
-        raise SceneError("fs", f"{fs:g}", f"the rate of the run, {out.fs:g} Hz, or absent")
+        return read(path, **said, progress=True)
+    if said["fs"] is not None and not math.isclose(said["fs"], out.fs, rel_tol=1e-3):
+        raise SceneError("fs", f"{said['fs']:g}", f"the rate of the run, {out.fs:g} Hz, or absent")
     return out
 
 

@@ -310,10 +310,11 @@ def results(BallraceError, CONFIG, mo, out, rates, refused, sensor, simulated):
 
 
 @app.cell
-def dropping(file, mo, opened):
+def dropping(beside, file, mo, opened):
     """Take a measured file."""
     dropped_file = mo.ui.file(
-        kind="area", label="Drop a measured file here: MATLAB, CSV, WAV, UFF, HDF5, Parquet"
+        kind="area",
+        label="Drop a measured file here: text, MATLAB, WAV, UFF, HDF5, TDMS, Excel, NPY, Parquet",
     )
     record_fs = mo.ui.number(
         0, 1e7, step=1, value=0, label="its sampling rate / Hz (0: that of the file)", debounce=True
@@ -322,19 +323,36 @@ def dropping(file, mo, opened):
         0, 1e5, step=0.1, value=0, label="its speed / rev/min (0: that of the file, or as above)", debounce=True
     )  # fmt: skip
     record_unit = mo.ui.dropdown(["m/s^2", "g"], label="its unit, where the file does not have it")
+    record_said = mo.ui.dictionary(
+        {
+            "skip": mo.ui.number(
+                0, 1_000_000, step=1, value=0, label="lines to skip", debounce=True
+            ),
+            "columns": mo.ui.text(label="columns that are signals: names, or places from 0"),
+            "decimal": mo.ui.dropdown([".", ","], label="decimal mark"),
+            "time": mo.ui.text(label="column of the times, or of a clock; none: no column"),
+            "time_unit": mo.ui.dropdown(list(beside.TIME_UNITS), label="unit of the times"),
+        }
+    )
     begun_with = None if opened is not None or file is None else (file.name, file.read_bytes())
-    mo.vstack([mo.md("## A measured record"), dropped_file, record_fs, record_rpm, record_unit])
-    return begun_with, dropped_file, record_fs, record_rpm, record_unit
+    mo.vstack(
+        [
+            mo.md("## A measured record"), dropped_file, record_fs, record_rpm, record_unit,
+            mo.accordion({"what the file does not say": record_said}),
+        ]
+    )  # fmt: skip
+    return begun_with, dropped_file, record_fs, record_rpm, record_said, record_unit
 
 
 @app.cell
-def received(BallraceError, beside, begun_with, dropped_file, mo, record_fs, refused):
+def received(BallraceError, beside, begun_with, dropped_file, mo, record_fs, record_said, refused):
     """Read it."""
     holding = next(((one.name, one.contents) for one in dropped_file.value), begun_with)
     dropped, column, unread = None, None, None
     if holding is not None:
         try:
-            dropped = beside.received(*holding, record_fs.value or None)
+            said = beside.said_by(record_said.value)
+            dropped = beside.received(*holding, record_fs.value or None, **said)
             column = mo.ui.dropdown(
                 list(dropped.record), value=dropped.record.channel().name, label="column"
             )

@@ -5,16 +5,20 @@ from __future__ import annotations
 import tempfile
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from .. import spectra
 from ..diagnosis import diagnose
 from ..errors import FileError
 from ..recordings import Recording, read
+from ..recordings.reading import key_of
+from ..recordings.titles import TIME_UNITS
 from .sensor import envelope
 from .settings import outer_speed_of, speed_of
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     import plotly.graph_objects as go
 
     from ..channel import Channel
@@ -22,7 +26,7 @@ if TYPE_CHECKING:
     from ..frequencies.operating import FaultFrequencies
     from ..scene import Scene
 
-__all__ = ["Dropped", "judged", "left_out", "overlaid", "received"]
+__all__ = ["TIME_UNITS", "Dropped", "judged", "left_out", "overlaid", "received", "said_by"]
 
 
 _SHOWN = 600.0
@@ -49,8 +53,10 @@ class Dropped:
     record: Recording
 
 
-def received(name: str, contents: bytes, fs: float | None = None) -> Dropped:
-    """Read a dropped file in a child process, within limits; ``fs`` [Hz] where the file does not have it.
+def received(name: str, contents: bytes, fs: float | None = None, **said: Any) -> Dropped:
+    """Read a dropped file in a child process, within limits.
+
+    What the file does not say itself is given: ``fs`` [Hz], and other arguments of :func:`ballrace.read`.
 
     Raises
     ------
@@ -64,10 +70,24 @@ def received(name: str, contents: bytes, fs: float | None = None) -> Dropped:
         path = Path(folder) / f"record{suffix}"
         path.write_bytes(contents)
         try:
-            return Dropped(name=name, record=read(path, fs))
+            return Dropped(name=name, record=read(path, fs, **said))
         except FileError as error:
             # The reader knows the copy alone.
             raise FileError(name, str(error).replace(str(path), name)) from error
+
+
+def said_by(values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what the controls about a file say, as arguments of :func:`ballrace.read`; nothing of empty ones.
+
+    Columns, and those of times, are names or places with commas between them; the time ``none`` is no column.
+    """
+    said: dict[str, Any] = {name: values[name] or None for name in ("skip", "decimal", "time_unit")}
+    for name in ("columns", "time"):
+        keys = [key_of(text) for text in values[name].split(",") if text.strip()]
+        said[name] = keys or None
+    if said["time"] == ["none"]:
+        said["time"] = False
+    return said
 
 
 def judged(
