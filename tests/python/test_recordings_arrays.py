@@ -158,6 +158,13 @@ STRUCTS: dict[str, tuple[Tree, str, str, float]] = {
         "g",
         FS,
     ),
+    "rate in a head beside": (
+        {"File_Header": {"SampleFrequency": FS, "Title": "run"}, "Channel_1_Data": A},
+        "Channel_1_Data",
+        "",
+        FS,
+    ),
+    "rate as text": ({"data": {"fs": "25600 Hz", "acc": A}}, "data.acc", "", FS),
     "Case Western": (
         {"X105_DE_time": A, "X105_FE_time": B, "X105RPM": 1797.0, "fs": FS},
         "DE",
@@ -206,6 +213,13 @@ def hdf5(path: Path, fill: Callable[[Any], object]) -> None:
 
 def _with_attributes(file: Any, data: Any, **attributes: Any) -> None:
     file.create_dataset("group/data", data=data).attrs.update(attributes)
+
+
+def _frame(file: Any) -> None:
+    group = file.create_group("frame")
+    group["axis0"] = group["block0_items"] = np.array([b"x", b"y", b"z"])
+    group["axis1"] = np.arange(N)
+    group["block0_values"] = WIDE.T
 
 
 def _matlab(content: Tree) -> Callable[[Path], None]:
@@ -258,6 +272,16 @@ MATRICES: dict[str, tuple[str, Callable[[Path], object], bool]] = {
         ),
         True,
     ),
+    "HDF5, rate as text": (
+        "h5",
+        lambda p: hdf5(p, lambda f: _with_attributes(f, WIDE.T, sample_rate="25.6 kHz")),
+        True,
+    ),
+    "HDF5, as pandas stores a frame": (
+        "h5",
+        lambda p: hdf5(p, _frame),
+        False,
+    ),
     "HDF5, no rate": (
         "h5",
         lambda p: hdf5(p, lambda f: f.create_dataset("data", data=WIDE.T)),
@@ -282,7 +306,7 @@ def test_matrices_are_columns(tmp_path: Path, case: str) -> None:
     path = tmp_path / f"m.{end}"
     write(path)
     if not rated:
-        with pytest.raises(br.SceneError, match=r"fs = None: .* which m\.\w+ does not have"):
+        with pytest.raises(br.SceneError, match=r"fs = None: the sampling rate"):
             br.read(path)
     record = br.read(path, None if rated else FS)
     assert (len(record), record.fs) == (3, FS)

@@ -420,3 +420,77 @@ def test_labviews_text(tmp_path: Path, times: bool) -> None:
     record = br.read(written(tmp_path / "a.lvm", LVM + "\r\n".join(lines) + "\r\n"))
     check(record)
     assert list(record) == ["Acc"]
+
+
+def scope(*head: str, beside: bool = False, times: str = "{:.9e}") -> str:
+    """A table as an oscilloscope writes it, perhaps with the head beside its first rows."""
+    lines = [f"{times.format(t - 0.005)},{a:.6f}" for t, a in zip(T, A, strict=True)]
+    if not beside:
+        return table(lines, *head)
+    filled = [*head, *[",,"] * (N - len(head))]
+    return table([f"{key},{line}" for key, line in zip(filled, lines, strict=True)])
+
+
+# Heads as oscilloscopes and analysers write them, and the unit of the signal.
+SCOPES: dict[str, tuple[str, str]] = {
+    "head beside the rows": (
+        scope(
+            "Record Length,3.0e+02,",
+            "Sample Interval,3.90625e-05,",
+            "Vertical Units,V,",
+            "Source,CH1,",
+            beside=True,
+        ),
+        "V",
+    ),
+    "names and units, numbered": (scope("x-axis,1", "second,Volt"), "V"),
+    "head with an empty line": (
+        scope(
+            "Model,M", "Sample Interval,3.90625e-05", "Vertical Units,mV", "", "Label,", "TIME,CH1"
+        ),
+        "mV",
+    ),
+    "second and value": (scope("Record Length,Analog:300", "Second,Value"), ""),
+    "brackets": (scope('"Time(s)","Acc(g)"'), "g"),
+    "sep= of a spreadsheet": ("sep=;\n" + table(rows(";"), "t [s];a [g]"), "g"),
+    "unit of the signal above": (
+        table(rows(t=False), "Sampling rate: 25600 Hz", "Unit: m/s2", "Sensor 3"),
+        "m/s^2",
+    ),
+    "times named by the device": (scope("Time  1 - default sample rate [s],Acc [g]"), "g"),
+    "numbers of samples, rate above": (
+        table(
+            [f"{k};{row}" for k, row in enumerate(rows(t=False))], "fs = 25600 Hz", "Sample;Acc [g]"
+        ),
+        "g",
+    ),
+    "empty fields at ends": (
+        table([row + ",," for row in rows()], "t [s],a [g],Start,Increment"),
+        "g",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", SCOPES)
+def test_heads_of_oscilloscopes_and_analysers(tmp_path: Path, case: str) -> None:
+    text, unit = SCOPES[case]
+    record = br.read(written(tmp_path / "scope.csv", text))
+    check(record)
+    assert record.channel().unit == unit
+
+
+def test_numbers_above_a_column_are_no_samples(tmp_path: Path) -> None:
+    path = written(tmp_path / "a.txt", table(rows(t=False), "300", "25600"))
+    with pytest.raises(
+        br.FileError, match=r"first numbers \(300, 25600\) are far .*; skip=2 leaves them out"
+    ):
+        br.read(path, FS)
+    check(br.read(path, FS, skip=2))
+    assert br.read(path, FS, skip=0).n_samples == N + 2
+
+
+def test_a_spectrum_is_no_record(tmp_path: Path) -> None:
+    lines = [f"{1.25 * k},{abs(a)}" for k, a in enumerate(A)]
+    for title in ("Frequency [Hz],Amplitude [g]", "Frequency,Amplitude", "f [Hz],a"):
+        with pytest.raises(br.FileError, match=r"is a spectrum over .*export the time signal"):
+            br.read(written(tmp_path / "a.csv", table(lines, title)), FS)

@@ -99,6 +99,15 @@ def test_times_without_a_unit_are_asked_for(tmp_path: Path, form: str, case: str
     np.testing.assert_array_equal(record["acc"], A)
 
 
+def test_days_of_a_spreadsheet_are_asked_for(tmp_path: Path) -> None:
+    path = as_text(
+        tmp_path / "a", {"Time": [f"{46_352.5 + x / 86_400.0:.12f}" for x in K / 100.0], "a": A}
+    )
+    with pytest.raises(br.SceneError, match=r'time_unit = None: .*"d" makes 100 Hz'):
+        br.read(path)
+    assert br.read(path, time_unit="d").fs == 100.0
+
+
 @EVERY
 @pytest.mark.parametrize(("unit", "scale"), [("s", 1.0), ("ms", 1e3), ("us", 1e6), ("ns", 1e9)])
 def test_a_unit_that_is_given_counts(tmp_path: Path, form: str, unit: str, scale: float) -> None:
@@ -149,6 +158,16 @@ def stamps(form: str, start: dt.datetime | None = None) -> list[str]:
 
 CLOCKS: dict[str, tuple[Columns, float]] = {
     "hour, minute, second, µs": (clock(), FS),
+    "seconds with a fraction": (
+        {"h": np.full(N, 9), "m": np.full(N, 39), "s": [f"{39.5 + x:.9f}" for x in K / FS]},
+        FS,
+    ),
+    "a date as a number": ({"d": np.full(N, 20261126), "t [s]": [f"{x:.9f}" for x in K / FS]}, FS),
+    "a number of the device": ({"id": np.full(N, 7), "abc": [f"{x:.9f}" for x in K / FS]}, FS),
+    "stamps to the second, then microseconds": (
+        {"when": ["2026-11-26 10:20:30"] * N, "us": np.round(1e6 * K / 12_500.0).astype(int)},
+        12_500.0,
+    ),
     "over a full second": (clock(start=34_779.995), FS),
     "over midnight's hour": (clock(start=35_999.999), FS),
     "minute, second, µs": (clock(hour=False), FS),

@@ -56,6 +56,9 @@ _WORDS = re.compile(r"[^\W\d_][\w .:+-]*")
 _ENDS = " \xa0\r\x1a"
 _BLANKS = "\t" + _ENDS
 
+_HEAD = 5
+"""Most numbers before a column that are none of the signal."""
+
 _REMARK = "#"
 """How lines begin that belong to no table."""
 
@@ -168,11 +171,16 @@ class _Candidate:
 
 
 def layout_of(
-    path: Path, lines: Sequence[str], decimal: str | None, separator: str | None = None
+    path: Path,
+    lines: Sequence[str],
+    decimal: str | None,
+    separator: str | None = None,
+    *,
+    skipped: bool = False,
 ) -> Layout:
     """Return how the table stands in the first lines of a text; lines are without their ends.
 
-    What separates is found where it is not known.
+    What separates is found where it is not known. Where lines were ``skipped``, the first row is one of the table.
 
     Raises
     ------
@@ -204,7 +212,7 @@ def layout_of(
         if not one.separator or len(one.own) > 1 or (one.number, one.count) not in alone
     ]
     best = _told_apart(path, texts, found, max(found, key=lambda one: one.count), decimal)
-    return _layout(path, lines, used, texts, best)
+    return _layout(path, lines, used, texts, best, skipped=skipped)
 
 
 def _no_table(texts: Sequence[str]) -> str:
@@ -353,11 +361,24 @@ def _ambiguous(rows: Sequence[Sequence[str]]) -> str:
 
 
 def _layout(
-    path: Path, lines: Sequence[str], used: Sequence[int], texts: Sequence[str], best: _Candidate
+    path: Path,
+    lines: Sequence[str],
+    used: Sequence[int],
+    texts: Sequence[str],
+    best: _Candidate,
+    *,
+    skipped: bool,
 ) -> Layout:
     """Return the layout with names, units and preamble from the lines above the table."""
     first, own = best.first, best.own
-    rows = texts[first : first + best.count]
+    beside: list[str] = []
+    while first and _stands_beside(best.kinds[first - 1], own):
+        first -= 1
+        fields = zip(best.fields(texts[first]), own, strict=False)
+        beside.insert(0, best.separator.join(text for text, kind in fields if kind == "e" and text))
+    rows = texts[first : best.first + best.count]
+    if len(own) == 1 and not skipped:
+        _check_head_of_numbers(path, rows)
     if _is_numbered_header(best.fields(rows[0]), [best.fields(row) for row in rows[1:20]], own):
         names, units, above = best.fields(rows[0]), [""] * len(own), first
         first, rows = first + 1, rows[1:]
@@ -367,13 +388,36 @@ def _layout(
     if not names:
         names, units = _names_in_remark(lines, used[first], best)
     line = used[first]
-    preamble = [text for text in lines[: used[above]] if text.strip()]
+    preamble = [text for text in [*lines[: used[above]], *beside] if text.strip()]
     marked = any(best.number[0] in text for row in rows for text in best.fields(row))
     return Layout(
         separator=best.separator, decimal=best.number[0], thousands=best.number[1], paired=best.paired, first=line,
         kinds=own, names=names, units=units, preamble=preamble, decided=marked,
         ended=any(len(best.fields(row)) > len(own) for row in rows),
     )  # fmt: skip
+
+
+def _stands_beside(kinds: str, own: str) -> bool:
+    """Whether a line is a row with something in the fields that are empty below, as oscilloscopes write it."""
+    alike = all(wanted in {kind, "e"} for kind, wanted in zip(kinds, own, strict=False))
+    return "e" in own and len(kinds) == len(own) and alike
+
+
+def _check_head_of_numbers(path: Path, rows: Sequence[str]) -> None:
+    """Refuse a column whose first whole numbers are far beyond the others: a count of samples, a rate."""
+    whole = [row.strip().lstrip("+-").isdigit() for row in rows]
+    count = whole.index(False) if False in whole else 0
+    if not 0 < count <= _HEAD or any(whole[count:]) or len(rows) < count + LONG:
+        return
+    largest = max(
+        abs(float(row.strip().replace(",", ".").lower().replace("d", "e"))) for row in rows[count:]
+    )
+    if min(abs(float(row)) for row in rows[:count]) > 10.0 * largest:
+        shown = ", ".join(row.strip() for row in rows[:count])
+        reason = (
+            f"its first numbers ({shown}) are far beyond the others, and may be none of the signal"
+        )
+        raise FileError(str(path), f"{reason}; skip={count} leaves them out, skip=0 takes them")
 
 
 def _is_numbered_header(first: Sequence[str], rows: Sequence[Sequence[str]], kinds: str) -> bool:
@@ -421,6 +465,8 @@ def _title_fields(text: str, best: _Candidate, width: int) -> list[str] | None:
     for split in (fields, *_other_splits(text)):
         while len(split) > width and split[-1].casefold() in ("", "comment"):
             split.pop()
+        if len(split) == width + 1 and best.own.endswith("e"):
+            split.pop()  # over nothing
         if len(split) == width and _are_titles(split):
             return split
     return None

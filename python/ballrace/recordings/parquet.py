@@ -13,7 +13,7 @@ from ..errors import FileError
 from ..scene import Scene
 from .limits import check_declared
 from .sampled import cut, sampled
-from .samples import Samples, from_header
+from .samples import Said, Samples, from_header
 from .scenes import shaft_of
 from .times import Column
 from .titles import named
@@ -52,7 +52,9 @@ def read(path: Path, reading: Reading) -> Samples:
         columns = {name: column_of(path, table, name) for name in table.columns}
         return cut(path, from_header(path, entries[_HEADER], columns), reading)
     if "ballrace" not in entries:
-        return sampled(path, [_column(path, table[name]) for name in table.columns], reading)
+        return sampled(
+            path, [_column(path, table[name]) for name in table.columns], reading, Said()
+        )
     fields = described(path, entries, table.columns)
     samples = Samples(
         columns={name: column_of(path, table, name) for name in fields["units"]},

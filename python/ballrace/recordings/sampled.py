@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, NoReturn
 
@@ -9,8 +10,8 @@ from .._numbers import RATES
 from .._units import ENVELOPE, canonical
 from ..errors import FileError, SceneError
 from .rates import roundest
-from .samples import Samples
-from .times import Column, Times, find_times, is_counter, times_in
+from .samples import Said, Samples
+from .times import Column, Times, examined, find_times, is_constant, is_counter, is_whole, times_in
 from .titles import TIME_UNITS
 
 if TYPE_CHECKING:
@@ -36,10 +37,17 @@ _OTHER = 1e-2
 _SLOWEST = 100.0
 """Rate up to which steps below 1 without a unit may be milliseconds [Hz]."""
 
+_FASTEST = 2e6
+"""Rate from which steps without a unit are likely no seconds, but days of a spreadsheet [Hz]."""
+
 _EPOCH = 1e8
 """From where on whole numbers are times since some date, and no numbers of samples."""
 
+_FREQUENCY = re.compile(r"freq(?:uenc(?:y|ies)|uenz(?:en)?)?", re.IGNORECASE)
+_HERTZ = ("hz", "khz")
+
 _SHORT = ("s", "ms", "us", "ns")
+_LONG = ("s", "d")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -78,9 +86,7 @@ def sampled(
     path: Path,
     columns: Sequence[Column],
     reading: Reading,
-    *,
-    stated: float | None = None,
-    metadata: Mapping[str, Any] | None = None,
+    said: Said,
 ) -> Samples:
     """Return the signals of a table, at the rate of its times, the one the file states, or the given one.
 
@@ -89,14 +95,12 @@ def sampled(
     FileError, SceneError
         As of :func:`signals_of`; or there are no samples at the times asked for.
     """
-    found = signals_of(path, columns, reading, stated)
+    found = signals_of(path, columns, reading, said)
     window = reading.window(found.fs, columns[0].values.size)
-    return found.of([column.values[window] for column in columns], metadata or {})
+    return found.of([column.values[window] for column in columns], said.metadata)
 
 
-def signals_of(
-    path: Path, columns: Sequence[Column], reading: Reading, stated: float | None
-) -> Signals:
+def signals_of(path: Path, columns: Sequence[Column], reading: Reading, said: Said) -> Signals:
     """Return which columns of a table are signals, and their rate.
 
     Raises
@@ -106,10 +110,11 @@ def signals_of(
     SceneError
         The given rate is another than that of the times, or what was not said has to be.
     """
+    _check_spectrum(path, columns)
     asked = [(_found(columns, key, "columns"), name) for key, name in reading.columns or ()]
     free = [column for column in columns if not _among(column, [one for one, _ in asked])]
     times = _times(columns, free, reading)
-    fs, notes = _rate(path, times, reading, stated)
+    fs, notes = _rate(path, times, reading, said.rate)
     about: dict[str, Any] = {}
     if times is not None:
         about["times"] = [column.name for column in times.columns]
@@ -117,6 +122,7 @@ def signals_of(
         rest = [column for column in free if times is None or not _among(column, times.columns)]
         signals = [c for c in rest if times is None or not is_counter(c, times)]
         signals = signals or [c for c in rest if not c.is_named_time]
+        signals = _without_constants(signals)
         if left := [column.name for column in rest if not _among(column, signals)]:
             about["counters"] = left
         asked = [(column, None) for column in signals]
@@ -125,10 +131,37 @@ def signals_of(
     if not names or not columns[0].values.size:
         raise FileError(str(path), "has no column of numbers that is a signal")
     units = {name: canonical(column.unit) for name, (column, _) in zip(names, asked, strict=True)}
+    free_names = [name for name, unit in units.items() if not unit]
+    if len(said.units) in (1, len(free_names)):
+        each = said.units if len(said.units) == len(free_names) else said.units * len(free_names)
+        units |= dict(zip(free_names, map(canonical, each), strict=True))
     _check_units(path, units)
     places = [next(k for k, one in enumerate(columns) if one is column) for column, _ in asked]
     by_name = dict(zip(names, places, strict=True))
     return Signals(places=by_name, units=units, fs=fs, about=about, notes=notes)
+
+
+def _check_spectrum(path: Path, columns: Sequence[Column]) -> None:
+    """Refuse a table over frequencies, which is no record over time."""
+    first = columns[0] if columns else None
+    if first is None or not (first.unit.lower() in _HERTZ or _FREQUENCY.fullmatch(first.name)):
+        return
+    steps = examined(first)
+    if steps is not None and steps.are_equal:
+        raise FileError(
+            str(path),
+            f"is a spectrum over {first.name}, no record over time; export the time signal",
+        )
+
+
+def _without_constants(signals: list[Column]) -> list[Column]:
+    """Leave out whole numbers that stay the same before the first signal: dates, numbers of a device."""
+    changing = [column for column in signals if not is_constant(column.values)]
+    if not changing:
+        return signals
+    first = next(place for place, column in enumerate(signals) if column is changing[0])
+    before = [c for c in signals[:first] if c.unit or not is_whole(c.values)]
+    return [*before, *signals[first:]]
 
 
 def _among(column: Column, columns: Sequence[Column]) -> bool:
@@ -304,7 +337,7 @@ def _guessed(path: Path, times: Times, steps: Steps, known: float | None) -> str
             raise SceneError("fs", f"{known:g}", allowed)
         return "s"
     rate = 1.0 / steps.mean
-    if rate > _SLOWEST or (rate > 1.0 and times.name == "t"):
+    if _SLOWEST < rate < _FASTEST or (1.0 < rate <= _SLOWEST and times.name == "t"):
         return "s"
     if counts:
         why = f"the column {times.name} counts samples; or time_unit= if these are times"
@@ -316,7 +349,11 @@ def _guessed(path: Path, times: Times, steps: Steps, known: float | None) -> str
 
 
 def _readings(steps: Steps) -> list[tuple[str, float]]:
-    return [(u, float(f"{1.0 / (steps.mean * (TIME_UNITS[u] or 1.0)):.6g}")) for u in _SHORT]
+    """Return what the rate is in units that are likely [Hz]."""
+    return [
+        (u, float(f"{1.0 / (steps.mean * (TIME_UNITS[u] or 1.0)):.6g}"))
+        for u in (_SHORT if steps.mean > 1.0 / _FASTEST else _LONG)
+    ]
 
 
 def _off(fs: float, step: float) -> float:

@@ -66,6 +66,25 @@ class Samples:
             raise SceneError("metadata", f"({error})", "what JSON can hold") from None
 
 
+@dataclass(kw_only=True)
+class Said:
+    """What a file says beside its numbers.
+
+    Attributes
+    ----------
+    rate : float or None
+        Sampling rate [Hz].
+    units : list of str
+        Units of signals that have none at their names: one for all, or one each.
+    metadata : dict
+        The rest, as JSON can hold it.
+    """
+
+    rate: float | None = None
+    units: list[str] = field(default_factory=list)
+    metadata: dict[str, Any] = field(default_factory=dict)
+
+
 def from_header(path: Path, text: str, columns: Mapping[str, NDArray[Any]]) -> Samples:
     """Return columns with the metadata of :meth:`Samples.header`.
 

@@ -68,14 +68,13 @@ def read(path: Path, reading: Reading) -> Samples:
     """
     text = Text(path)
     layout = _layout(path, text, reading)
-    metadata, stated = described(layout.preamble)
+    said = described(layout.preamble)
     if reading.start is not None or reading.stop is not None:
         return _part(path, text, layout, reading)
     arrays = _Body(path, layout).read(text, reading, slice(0, None))
     if len(arrays) > max(64, arrays[0].size) and not layout.names:
         raise FileError(str(path), _too_wide(len(arrays)))
-    columns = columns_of(layout, arrays, metadata)
-    return sampled(path, columns, reading, stated=stated, metadata=metadata)
+    return sampled(path, columns_of(layout, arrays, said.metadata), reading, said)
 
 
 def _layout(path: Path, text: Text, reading: Reading) -> Layout:
@@ -85,7 +84,8 @@ def _layout(path: Path, text: Text, reading: Reading) -> Layout:
         lines, all_of_it = text.head(size)
         enough = all_of_it or size == _HEADS[-1]
         try:
-            found = layout_of(path, [""] * skip + lines[skip:], reading.decimal)
+            shown = [""] * skip + lines[skip:]
+            found = layout_of(path, shown, reading.decimal, skipped=reading.skip is not None)
         except FileError:
             if enough:
                 raise
@@ -104,10 +104,10 @@ def _too_wide(width: int) -> str:
 
 def _part(path: Path, text: Text, layout: Layout, reading: Reading) -> Samples:
     """Read the rows between ``start`` and ``stop``, by the rate and the signals that the first ones show."""
-    metadata, stated = described(layout.preamble)
+    said = described(layout.preamble)
     shown = _Body(path, layout).read(text, reading, slice(0, _PROBE))
-    columns = columns_of(layout, shown, metadata)
-    found = signals_of(path, columns, reading, stated)
+    columns = columns_of(layout, shown, said.metadata)
+    found = signals_of(path, columns, reading, said)
     body = _Body(path, layout)
     arrays = body.read(text, reading, reading.window(found.fs, 1 << 62))
     if not arrays[0].size:
@@ -115,7 +115,7 @@ def _part(path: Path, text: Text, layout: Layout, reading: Reading) -> Samples:
         raise SceneError("start", repr(reading.start), allowed)
     # Columns of text are none.
     kept = [x for x, kind in zip(arrays, layout.kinds, strict=True) if kind in "nd"]
-    return found.of(kept, metadata)
+    return found.of(kept, said.metadata)
 
 
 def columns_of(
@@ -287,7 +287,7 @@ class _Body:
 
     def _is_row(self, line: str) -> bool:
         kinds, own = kinds_of(self._layout.fields(line), self._number), self._layout.kinds
-        alike = all(wanted in {kind, "t"} for kind, wanted in zip(kinds, own, strict=False))
+        alike = all(wanted in {kind, "t", "e"} for kind, wanted in zip(kinds, own, strict=False))
         return len(kinds) == len(own) and alike
 
     def _begin_footer(self, lines: list[str], number: int, at: int) -> None:

@@ -248,7 +248,8 @@ def _grain(x: NDArray[Any]) -> float:
     return max(spacing, 1e-300)
 
 
-def _is_constant(x: NDArray[Any]) -> bool:
+def is_constant(x: NDArray[Any]) -> bool:
+    """Whether all values are equal."""
     return bool(x.size and (x == x[0]).all())
 
 
@@ -266,7 +267,7 @@ def times_in(columns: Sequence[Column]) -> Times | None:
         return clock_of(columns)
     (column,) = columns
     steps = examined(column)
-    constant = steps is None and _is_constant(column.values)
+    constant = steps is None and is_constant(column.values)
     return Times(columns=(column,), unit=column.time_unit, steps=steps, constant=constant)
 
 
@@ -319,10 +320,12 @@ def _of_a_clock(columns: Sequence[Column], beside: bool) -> Times | None:
     for start in (0, 1):
         group = []
         for column in columns[start:]:
-            usable = column.may_be_time or column.stamped
-            if not usable or not (column.stamped or _is_whole(column.values)):
+            if not column.may_be_time and not column.stamped:
                 break
             group.append(column)
+            # Seconds, the last, may have a fraction.
+            if not column.stamped and not is_whole(column.values):
+                break
         for size in range(min(len(group), 5), 1, -1):
             if (size < len(columns) or beside) and (found := clock_of(group[:size])) is not None:
                 return found
@@ -334,13 +337,22 @@ def clock_of(group: Sequence[Column]) -> Times | None:
     found = []
     for units in _readings(group):
         values = np.zeros(group[0].values.size)
-        for column, (_, length, below) in zip(group, units, strict=True):
+        for column, (unit, length, below) in zip(group, units, strict=True):
             x = column.values.astype(np.float64)
+            if (
+                not (column.stamped or unit == "s" or is_whole(column.values))
+                or not np.isfinite(x).all()
+            ):
+                break
             if not column.stamped and (x.min() < 0.0 or x.max() >= below):
                 break
             values += (x - float(x[0])) * length
         else:
-            whole = Column(name="", values=values, grain=units[-1][1])
+            last = group[-1]
+            fine = units[-1][0] == "s" and not last.stamped and not is_whole(last.values)
+            whole = Column(
+                name="", values=values, grain=_grain(last.values) if fine else units[-1][1]
+            )
             steps = examined(whole)
             if steps is not None and (steps.are_equal or steps.are_rounded):
                 found.append(steps)
@@ -366,7 +378,8 @@ def _readings(group: Sequence[Column]) -> Iterator[list[tuple[str, float, float]
             yield chain[len(chain) - size :]
 
 
-def _is_whole(x: NDArray[Any]) -> bool:
+def is_whole(x: NDArray[Any]) -> bool:
+    """Whether all values are whole numbers."""
     if x.dtype.kind in "iu":
         return True
     head = x[:_EDGE].astype(np.float64)

@@ -42,7 +42,7 @@ _UNITS = "|".join(sorted(_BY_SPELLING, key=len, reverse=True))
 _TIME_NAME = re.compile(
     r"(?:(?:rel|relative|abs|absolute|elapsed|system|unix|epoch|utc|local|sample|sampling|scan|logger|device|gps"
     r"|pc|start)"
-    rf"[ _.-]*)*(?:{_TIME_WORDS}|x[ _]?values?)(?:[ _.-]*(?P<unit>{_UNITS}))?"
+    rf"[ _.-]*)*(?:{_TIME_WORDS}|x[ _-]?(?:values?|axis))(?:[ _.-]*(?P<unit>{_UNITS}))?"
 )
 
 

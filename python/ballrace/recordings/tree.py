@@ -11,9 +11,11 @@ from numpy.typing import NDArray
 
 from .._units import canonical
 from ..errors import FileError
+from .lines import other_ways
+from .preamble import rate_in
 from .rates import stated_rate
 from .sampled import at_its_rate, sampled
-from .samples import Samples
+from .samples import Said, Samples
 from .times import Column
 
 if TYPE_CHECKING:
@@ -43,6 +45,7 @@ _LABELS = (
     "columns",
     "column_names",
     "signals",
+    "block0_items",
 )
 _UNITS = ("units", "unit", "y_unit", "yunit", "engunits", "eu", "unit_string")
 _LONGEST = 200
@@ -84,6 +87,10 @@ def from_tree(
     walk = _Walk(joint)
     walk.through(tree, "", None, None)
     left, texts = walk.left, walk.texts
+    if len(walk.rates) == 1 and all(one.rate is None for one in walk.found):
+        # As in a head of the file, beside the structs with signals.
+        for one in walk.found:
+            (one.rate,) = walk.rates
     groups: dict[tuple[int, float | None], list[_Found]] = {}
     for one in walk.found:
         groups.setdefault((one.column.values.size, one.rate), []).append(one)
@@ -91,7 +98,7 @@ def from_tree(
         has = f"; it has {', '.join(left[:8])}" if left else ""
         among = "" if left else f" among {', '.join(list(tree)[:8]) or 'nothing'}"
         reason = "holds no data set that could be a signal, a vector or a matrix of numbers"
-        raise FileError(str(path), f"{reason}{has}{among}")
+        raise FileError(str(path), f"{reason}{has}{among}; {other_ways()}")
     wanted = {key for key, _ in reading.columns or () if isinstance(key, str)}
 
     def weight(item: tuple[tuple[int, float | None], list[_Found]]) -> tuple[int, int]:
@@ -101,7 +108,8 @@ def from_tree(
     ordered = sorted(groups.items(), key=weight, reverse=True)
     (size, rate), first = ordered[0]
     metadata = texts | ({"left_out": left} if left else {})
-    samples = sampled(path, [one.column for one in first], reading, stated=rate, metadata=metadata)
+    said = Said(rate=rate, metadata=metadata)
+    samples = sampled(path, [one.column for one in first], reading, said)
     samples.shaft = shaft
     for (length, own), group in ordered[1:]:
         alike = own is None and abs(length - size) <= _SAME * size
@@ -121,6 +129,7 @@ class _Walk:
     def __init__(self, joint: str) -> None:
         self._joint = joint
         self._names: set[str] = set()
+        self.rates: set[float] = set()
         self.found: list[_Found] = []
         self.left: list[str] = []
         self.texts: dict[str, Any] = {}
@@ -128,6 +137,8 @@ class _Walk:
     def through(self, tree: Tree, prefix: str, rate: float | None, unit: str | None) -> None:
         """Collect arrays of a struct and of those in it; a rate and a unit hold for what is below them."""
         rate = _stated(tree, rate)
+        if rate is not None:
+            self.rates.add(rate)
         said = (one for name, one in tree.items() if name.lower() in _UNITS)
         unit = next((one for one in said if isinstance(one, str)), unit)
         for name, value in tree.items():
@@ -171,7 +182,9 @@ class _Walk:
 def _stated(entries: Mapping[str, Any], otherwise: float | None) -> float | None:
     """Return the sampling rate among named numbers."""
     rates = (
-        stated_rate(name, value) for name, value in entries.items() if isinstance(value, float)
+        stated_rate(name, value) if isinstance(value, float) else rate_in(name, value)
+        for name, value in entries.items()
+        if isinstance(value, float | str)
     )
     return next((rate for rate in rates if rate is not None), otherwise)
 

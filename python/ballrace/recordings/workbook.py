@@ -43,22 +43,21 @@ def read(path: Path, reading: Reading) -> Samples:
         lines = ["\t".join(text or "" for text in row) for row in head.rows()]
         skip = reading.skip or 0
         try:
-            layout = layout_of(path, [""] * skip + lines[skip:], ".", separator="\t")
+            shown = [""] * skip + lines[skip:]
+            layout = layout_of(path, shown, ".", "\t", skipped=reading.skip is not None)
         except FileError as error:
             reason = error.reason
             continue
         table = _cells(path, number, kinds=layout.kinds, skip_rows=layout.first)
         check_declared(path, float(table.height * table.width))
         arrays = [table.get_column(name).to_numpy() for name in table.columns[: len(layout.kinds)]]
-        metadata, stated = described(layout.preamble)
+        said = described(layout.preamble)
         if any(
             kind in "nd" and table[name].null_count()
             for kind, name in zip(layout.kinds, table.columns, strict=False)
         ):
             raise FileError(str(path), "has empty cells or text among the numbers of its table")
-        return sampled(
-            path, columns_of(layout, arrays, metadata), reading, stated=stated, metadata=metadata
-        )
+        return sampled(path, columns_of(layout, arrays, said.metadata), reading, said)
     raise FileError(str(path), reason)
 
 
