@@ -29,8 +29,11 @@ LONG = 10
 _NAMES = 3
 """Most lines of names and units above a table."""
 
-_SEPARATORS = (";", "\t", "|", ",", " ", "")
-"""Between the fields of a line, in the order in which they are preferred; a blank means any number of them."""
+_SEPARATORS = (";", "\t", "|", ", ", ",", " ", "")
+"""Between the fields of a line, in the order in which they are preferred; a blank means any number of them.
+
+A comma with a blank is one where commas without are decimal marks.
+"""
 
 _NAN = r"[+-]?(?:nan|inf(?:inity)?)"
 _NUMBERS = {
@@ -43,9 +46,9 @@ _NUMBERS = {
 """Numbers by their decimal mark, and the mark between thousands."""
 
 _DATE = r"(?:\d{4}[-/.]\d{1,2}[-/.]\d{1,2}|\d{1,2}[-/.]\d{1,2}[-/.]\d{2,4}|\d{1,2}[- ][A-Za-zäé]{3,9}[- ]\d{2,4})"
-_CLOCK = r"\d{1,2}:\d{1,2}(?::\d{1,2}(?:[.,:]\d{1,9})?|[.,]\d{1,9})?\s*(?:[AaPp]\.?[Mm]\.?)?"
+_CLOCK = r"\d{1,2}:\d{1,2}(?::\d{1,2}(?:[.,:]\d{1,15})?|[.,]\d{1,15})?\s*(?:[AaPp]\.?[Mm]\.?)?"
 _STAMP = re.compile(
-    rf"(?:{_DATE}(?:[T ,_-]+{_CLOCK})?|{_CLOCK}|\d{{8}}T\d{{6}}(?:[.,]\d{{1,9}})?)"
+    rf"(?:{_DATE}(?:[T ,_-]+{_CLOCK})?|{_CLOCK}|\d{{8}}T\d{{6}}(?:[.,]\d{{1,15}})?)"
     r"\s*(?:Z|UTC|[+-]\d{2}:?\d{2})?"
 )
 """A date, a time of day, or both."""
@@ -55,6 +58,9 @@ _WORDS = re.compile(r"[^\W\d_][\w .:+-]*")
 
 _ENDS = " \xa0\r\x1a"
 _BLANKS = "\t" + _ENDS
+
+_SEVERAL = 20
+"""Rows in which one digit would once be two if it were a number of its own."""
 
 _HEAD = 5
 """Most numbers before a column that are none of the signal."""
@@ -113,6 +119,8 @@ def _fields(line: str, separator: str, *, paired: bool = False) -> list[str]:
         found = [line]
     elif separator == " ":
         found = re.split(r"[ \t]+", line)
+    elif separator == ", ":
+        found = re.split(r", +|,$", line)
     elif '"' in line:
         found = _unquoted(line, separator)
     else:
@@ -234,6 +242,8 @@ def _number_styles(text: str, separator: str, decimal: str | None) -> Iterator[t
             continue
         if mark == "," and "," not in text and decimal is None:
             continue
+        if separator == ", " and (number != (",", "") or not re.search(r"\d,\d", text)):
+            continue
         if thousands and (
             thousands not in text.replace("’", "'") or (separator == thousands and not quoted)
         ):
@@ -253,6 +263,7 @@ def _candidate(
         fields = _fields(text, separator)
         if paired:
             # Without a partner a field is no number of the kind.
+            fields = fields[:-1] if fields[-1] == "" else fields
             fields = _fields(text, separator, paired=True) if len(fields) % 2 == 0 else ["?"]
         kinds.append(kinds_of(fields, number))
     runs = _runs(kinds, _is_mixed_row if words else _is_row)
@@ -260,6 +271,8 @@ def _candidate(
         return None
     longest = max(length for _, length in runs)
     first, count = next(run for run in runs if run[1] >= min(LONG, longest))
+    if words and 2 * count < len(texts) - first:
+        return None
     if words and (
         count < _NAMES
         or not all(_has_words(_fields(t, separator), number) for t in texts[first : first + count])
@@ -303,6 +316,8 @@ def _told_apart(
     marks = next(
         (one for one in near if one.number == (",", "") and one.separator in ("", ",")), None
     )
+    if apart is not None and marks is None and decimal is None and best is apart:
+        _check_fractions(path, texts, apart)
     if apart is None or marks is None or decimal is not None or best not in (apart, marks):
         return best
     rows = [apart.fields(text) for text in texts[apart.first : apart.first + apart.count]]
@@ -310,16 +325,50 @@ def _told_apart(
     is_decimal, is_separator = _evidence(rows)
     # A number without a fraction among others; one such line alone may have been cut.
     is_decimal |= marks.count > apart.count + 1
-    above = texts[max(apart.first - _NAMES, 0) : apart.first]
-    if any(len(names) > 1 for text in above if (names := _title_fields(text, apart, len(rows[0])))):
-        is_separator = True
-    elif any("," not in text and _title_fields(text, marks, len(marks.own)) for text in above[-1:]):
-        is_decimal = True
+    for text in reversed(texts[max(apart.first - _NAMES, 0) : apart.first]):
+        names = [_fields(text, ",")] if "," in text else []
+        if any(len(one) == len(rows[0]) and _are_titles(one) for one in names):
+            is_separator = True
+        elif any(
+            len(one) == len(marks.own) and _are_titles(one) for one in names or [[text.strip()]]
+        ):
+            is_decimal = True
+        else:
+            continue
+        break
     if is_decimal != is_separator:
         return marks if is_decimal else apart
     if not is_decimal and len(rows[0]) > 2:
+        _check_fractions(path, texts, apart)
         return apart
     raise FileError(str(path), _ambiguous(rows))
+
+
+def _check_fractions(path: Path, texts: Sequence[str], apart: _Candidate) -> None:
+    """Refuse fields between commas that look like the sides of decimal commas, some of them.
+
+    Whole numbers have no sign of zero, and no zeros before them unless all of a column have as many digits.
+    """
+    rows = [apart.fields(text) for text in texts[apart.first : apart.first + apart.count]]
+    if any("." in text for row in rows for text in row):
+        return
+    above = _fields(texts[apart.first - 1], ",") if apart.first else []
+    headed = len(above) == len(rows[0]) and _are_titles(above)
+    columns = list(zip(*rows, strict=False))
+    for left, column in pairwise(columns):
+        widths = {len(text) for text in column}
+        padded = any(len(text) > 2 and text.startswith("0") for text in column) and len(widths) > 1
+        # Beside signed numbers as many digits as a fraction has, and never a sign.
+        signed = any(text.startswith("-") for text in left) and len(set(column)) > 1
+        many = min(widths) > 2 or (len(column) >= _SEVERAL and len(set(column)) > 4)
+        alike = (
+            not headed and signed and len(widths) == 1 and many and all(map(str.isdigit, column))
+        )
+        power = any(re.fullmatch(r"\d{2,}[eEdD][+-]?\d+", text) for text in column)
+        if padded or alike or power or any(text in ("-0", "+0") for text in column):
+            shown = ",".join(rows[0])
+            reason = f"its commas seem to be decimal marks, and to separate as well ({shown}, …)"
+            raise FileError(str(path), f'{reason}; decimal="." reads each comma as a separator')
 
 
 def _evidence(rows: Sequence[Sequence[str]]) -> tuple[bool, bool]:
@@ -378,7 +427,7 @@ def _layout(
         beside.insert(0, best.separator.join(text for text, kind in fields if kind == "e" and text))
     rows = texts[first : best.first + best.count]
     if len(own) == 1 and not skipped:
-        _check_head_of_numbers(path, rows)
+        _check_head_of_numbers(path, [best.fields(row)[0] for row in rows])
     if _is_numbered_header(best.fields(rows[0]), [best.fields(row) for row in rows[1:20]], own):
         names, units, above = best.fields(rows[0]), [""] * len(own), first
         first, rows = first + 1, rows[1:]
@@ -405,15 +454,15 @@ def _stands_beside(kinds: str, own: str) -> bool:
 
 def _check_head_of_numbers(path: Path, rows: Sequence[str]) -> None:
     """Refuse a column whose first whole numbers are far beyond the others: a count of samples, a rate."""
-    whole = [row.strip().lstrip("+-").isdigit() for row in rows]
+    whole = [row.lstrip("+-").isdigit() for row in rows]
     count = whole.index(False) if False in whole else 0
     if not 0 < count <= _HEAD or any(whole[count:]) or len(rows) < count + LONG:
         return
     largest = max(
-        abs(float(row.strip().replace(",", ".").lower().replace("d", "e"))) for row in rows[count:]
+        abs(float(row.replace(",", ".").lower().replace("d", "e"))) for row in rows[count:]
     )
     if min(abs(float(row)) for row in rows[:count]) > 10.0 * largest:
-        shown = ", ".join(row.strip() for row in rows[:count])
+        shown = ", ".join(rows[:count])
         reason = (
             f"its first numbers ({shown}) are far beyond the others, and may be none of the signal"
         )
@@ -462,23 +511,27 @@ def _titles(
 def _title_fields(text: str, best: _Candidate, width: int) -> list[str] | None:
     """Return the fields of a line of names or units; None if it is none."""
     fields = best.fields(text) if not best.paired else _fields(text, best.separator)
-    for split in (fields, *_other_splits(text)):
+    for split in (fields, *_other_splits(text, best.separator)):
         while len(split) > width and split[-1].casefold() in ("", "comment"):
             split.pop()
         if len(split) == width + 1 and best.own.endswith("e"):
             split.pop()  # over nothing
+        if len(split) == width - 1 and best.own.startswith("dd"):
+            split.insert(1, "")  # one name of a date and a time of day
         if len(split) == width and _are_titles(split):
             return split
     return None
 
 
-def _other_splits(text: str) -> Iterator[list[str]]:
+def _other_splits(text: str, between: str) -> Iterator[list[str]]:
+    """Yield the fields of a line of names that are separated otherwise than the columns."""
     text = text.strip()
     for separator in ("\t", ";", ","):
         if separator in text:
             yield _fields(text, separator)
     yield [part.strip() for part in re.split(r"\s{2,}", text)]
-    yield re.findall(r"\S+(?:\s*[\[(][^\])]*[\])])?", text)
+    if between == " ":
+        yield re.findall(r"\S+(?:\s*[\[(][^\])]*[\])])?", text)
 
 
 def _are_titles(fields: Sequence[str]) -> bool:
@@ -513,10 +566,11 @@ def _is_a_unit(text: str) -> bool:
 
 def _check_names_line(path: Path, text: str, best: _Candidate, width: int) -> None:
     """Refuse names that are not as many as the columns."""
-    fields = _fields(text, best.separator) if best.separator else []
+    between = "\t" if best.separator == " " and "\t" in text else best.separator
+    fields = _fields(text, between) if between else []
     names = [name for name in fields if name]
     words = all(kind_of(name, best.number) == "t" and len(name.split()) <= 3 for name in names)
-    if len(names) > 1 and words and abs(len(names) - width) <= 2 and not re.search(r"[:=]", text):
+    if len(names) > 2 and words and abs(len(names) - width) <= 2 and not re.search(r"[:=]", text):
         reason = f"its header names {len(names)} columns of {width}"
         raise FileError(str(path), f"{reason}; skip= up to its first row reads them without names")
 

@@ -25,8 +25,11 @@ if TYPE_CHECKING:
 
 __all__ = ["at_its_rate", "cut", "sampled", "signals_of"]
 
-_SURE = 1e-4
+_SURE = 2e-4
 """How well times that are rounded have to know the rate, as a part of it."""
+
+_VISIBLE = 1e-6
+"""How far times lie off equal steps if they are rounded, in steps."""
 
 _SAME = 1e-3
 """How far a given rate may be off the file's as another way to write it."""
@@ -371,7 +374,7 @@ def _of_steps(
     known = given if given is not None else stated
     if steps.are_equal or steps.are_rounded:
         if known is None:
-            if not steps.are_equal and steps.within > _SURE:
+            if steps.off > _VISIBLE and steps.within > _SURE:
                 about = f"rounded to {steps.grain * scale:g} s, and make {rate:g} Hz within {steps.within:.2%}"
                 raise SceneError(
                     "fs", "None", f"the sampling rate [Hz]: the times {times.name} are {about}"
@@ -382,6 +385,8 @@ def _of_steps(
             resolved = steps.are_equal or steps.within <= _SURE or given is None
             about = f"the times {times.name} are rounded to {steps.grain * scale:g} s and do not resolve the rate"
             return known, [] if resolved else [_note(about, known)]
+        if off <= _SAME and given is not None and steps.within > _VISIBLE:
+            return given, []
         if off <= _SAME or (given is None and off <= _OTHER):
             return rate, []
         if off <= _OTHER:

@@ -13,9 +13,9 @@ __all__ = ["seconds"]
 
 _CLOCK = (
     r"(?:^|[T ,_-])(?P<hour>\d{1,2}):(?P<minute>\d{1,2})(?::(?P<second>\d{1,2}))?"
-    r"(?:[.,:](?P<fraction>\d{1,9}))?\s*(?P<half>[AaPp])?"
+    r"(?:[.,:](?P<fraction>\d{1,15}))?\s*(?P<half>[AaPp])?"
 )
-_COMPACT = r"\dT(?P<hour>\d{2})(?P<minute>\d{2})(?P<second>\d{2})(?:[.,](?P<fraction>\d{1,9}))?(?P<half>[AaPp])?"
+_COMPACT = r"\dT(?P<hour>\d{2})(?P<minute>\d{2})(?P<second>\d{2})(?:[.,](?P<fraction>\d{1,15}))?(?P<half>[AaPp])?"
 _DAY = 86400.0
 
 

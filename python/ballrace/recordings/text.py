@@ -39,6 +39,9 @@ _SHOWN = 50
 _WIDEST = 4096
 """Most columns."""
 
+_FOOTER = 30
+"""Lines that may follow any table."""
+
 _PROBE = 1 << 16
 """Rows whose times say which rows are asked for."""
 
@@ -154,6 +157,7 @@ class _Body:
         self.rows = 0
         self._line = 0
         self._footer = ""
+        self._others = 0
 
     def read(self, text: Text, reading: Reading, window: slice) -> list[NDArray[Any]]:
         """Return the fields of the rows of a window, an array a field."""
@@ -169,6 +173,12 @@ class _Body:
             reading.tell(text.told)
             if last is not None and self.rows >= last:
                 break
+        if self._others > max(_FOOTER, self.rows):
+            reason = f"{self._footer} and {self._others} others follow {self.rows} rows"
+            raise FileError(
+                str(self._path),
+                f"not a table of numbers: {reason}; skip= and decimal= may find another",
+            )
         return [field.taken() for field in self._fields]
 
     def _below(self, piece: bytes) -> bytes:
@@ -222,7 +232,11 @@ class _Body:
         except (pl.exceptions.PolarsError, pl.exceptions.PanicException):
             return None
         filled = zip(layout.kinds, table.null_count().row(0), strict=True)
-        return None if any(missing and kind in "nd" for kind, missing in filled) else table
+        if any(missing and kind in "nd" for kind, missing in filled):
+            return None
+        stamps = [str(place) for place, kind in enumerate(layout.kinds) if kind == "d"]
+        begun = all(table[name].str.contains(r"^ *\d").all() for name in stamps)
+        return table if begun else None
 
     def _canonical(self, piece: bytes) -> bytes | None:
         """Return a piece with points as decimal marks and nothing but separators between numbers."""
@@ -238,8 +252,11 @@ class _Body:
         if layout.thousands and layout.separator != layout.thousands:
             piece = piece.replace(layout.thousands.encode(), b"").replace("’".encode(), b"")
         if layout.paired:
+            piece = piece.replace(b",\n", b"\n").removesuffix(b",")
             piece = re.sub(rb"([^,\n]*),([^,\n]*)(,|(?=\n)|\Z)", rb"\1.\2\3", piece)
         elif self._decimal == "," and layout.separator != ",":
+            if layout.separator == ", ":
+                piece = re.sub(rb", +|,(?=\n|\Z)", b";", piece)
             if b"." in piece and "d" not in layout.kinds:
                 return None
             piece = piece.replace(b",", b".")
@@ -247,9 +264,9 @@ class _Body:
             piece = re.sub(rb"(?<=[\d.])[dD](?=[+-]?\d)", b"e", piece)
         if layout.separator == " ":
             piece = piece.replace(b"\t", b" ")
-        mark = layout.separator.encode()
+        mark = _separator(layout).encode()
         if b" " in piece:
-            piece = _without_blanks(piece, mark.strip())
+            piece = _without_blanks(piece, mark.strip(b" "))
         if layout.ended:
             piece = piece.replace(mark + b"\n", b"\n").removesuffix(mark)
         return piece
@@ -295,7 +312,7 @@ class _Body:
         layout, line = self._layout, lines[number]
         fields = layout.fields(line)
         first = next((kind for text in fields if (kind := kind_of(text, self._number)) != "e"), "e")
-        if first != "t":
+        if first in ("n", "d"):
             reason = broken_row(fields, layout.kinds, layout.names, at + number + 1, self._number)
             raise FileError(str(self._path), reason)
         self._footer = f"line {at + number + 1} ({line.strip()[:40]!r})"
@@ -303,6 +320,7 @@ class _Body:
 
     def _check_footer(self, lines: list[str], at: int) -> None:
         """Refuse rows below a footer."""
+        self._others += sum(1 for line in lines if line.strip())
         for number, line in enumerate(lines):
             kinds = kinds_of(self._layout.fields(line), self._number)
             if "n" in kinds and "t" not in kinds and not line.lstrip().startswith("#"):
@@ -344,4 +362,4 @@ class _Growing:
 
 def _separator(layout: Layout) -> str:
     """Return what polars takes for a separator; of one column, what is in none."""
-    return layout.separator or "\t"
+    return {"": "\t", ", ": ";"}.get(layout.separator, layout.separator)

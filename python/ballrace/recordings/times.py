@@ -45,6 +45,9 @@ _CHAIN = (("d", 86400.0, 32.0), ("h", 3600.0, 24.0), ("min", 60.0, 60.0), ("s", 
 
 _FRACTIONS = (("ms", 1e-3, 1e3), ("us", 1e-6, 1e6), ("ns", 1e-9, 1e9))
 
+_STRAIGHT = 0.05
+"""How far times that jitter or have gaps lie off a straight line, as a part of their length."""
+
 _SELDOM = 0.02
 """Share of steps that are unlike the others below which they are no rounding."""
 
@@ -140,6 +143,12 @@ class Steps:
         """
         seldom = 0 < self.odd <= max(3.0, _SELDOM * self.count)
         return self.spread <= 2.05 * self.grain and not seldom
+
+    @property
+    def are_nearly_equal(self) -> bool:
+        """Whether they are those of a straight line, nearly, as times are that are rounded, jitter or have gaps."""
+        length = self.mean * (self.count - 1)
+        return self.spread <= max(_STRAIGHT * length, 2.05 * self.grain)
 
     @property
     def are_counts(self) -> bool:
@@ -238,7 +247,7 @@ def _grain(x: NDArray[Any]) -> float:
     for digits in range(13):
         grain = 10.0**-digits
         if grain < 20.0 * spacing:
-            break
+            return max(spacing, grain)  # finer digits do not show
         scaled = edges / grain
         if (
             largest >= 0.5 * grain
@@ -281,8 +290,8 @@ def _of_a_column(columns: Sequence[Column], beside: bool) -> Times | None:
     rising = []
     for place, column in enumerate(columns):
         steps = examined(column) if column.may_be_time else None
-        # Rounded ones rise as slow signals may: they are times where times stand, at first.
-        if steps is not None and (steps.are_equal or (steps.are_rounded and place == 0)):
+        # Others than equal ones may rise as slow signals do: they are times where times stand, at first.
+        if steps is not None and (steps.are_equal or (steps.are_nearly_equal and place == 0)):
             rising.append((column, steps))
     if not rising or (len(rising) == len(columns) and not beside):
         return None
@@ -349,6 +358,8 @@ def clock_of(group: Sequence[Column]) -> Times | None:
             values += (x - float(x[0])) * length
         else:
             last = group[-1]
+            if is_constant(last.values):
+                break
             fine = units[-1][0] == "s" and not last.stamped and not is_whole(last.values)
             whole = Column(
                 name="", values=values, grain=_grain(last.values) if fine else units[-1][1]
