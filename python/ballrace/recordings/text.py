@@ -241,9 +241,11 @@ class _Body:
     def _canonical(self, piece: bytes) -> bytes | None:
         """Return a piece with points as decimal marks and nothing but separators between numbers."""
         layout = self._layout
-        # Ends of lines, the sign that typesetters use for a minus, the end of old texts.
+        # Ends of lines, the sign that typesetters use for a minus, the end of old texts: by their first bytes, which
+        # are looked for faster.
         for old, new in ((b"\r\n", b"\n"), (b"\xe2\x88\x92", b"-"), (b"\x1a", b"")):
-            piece = piece.replace(old, new)
+            if old[:1] in piece:
+                piece = piece.replace(old, new)
         if not self._decided and layout.separator != "," and (b"," in piece or b"." in piece):
             # Whole numbers so far.
             self._decided, self._decimal = True, "," if b"," in piece else "."
