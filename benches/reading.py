@@ -3,7 +3,8 @@
 python benches/reading.py [--rows N] [--hour]
 
 Each figure is the median of several rounds, in which all programs take turns; the ratios are to pandas, or to the
-library that reads the format, in wall time, and in processor time, which other work on the machine disturbs less. ``--hour`` reads an hour at 51.2 kHz as text and as MAT, with the memory it takes.
+library that reads the format, in wall time, and in processor time, which other work on the machine disturbs less.
+``--hour`` reads an hour at 51.2 kHz as text and as MAT, with the memory it takes.
 """
 
 from __future__ import annotations
@@ -88,8 +89,9 @@ def row(name: str, size: float, found: dict[str, tuple[float, float]], beside: s
 def beside_others(rows: int) -> None:
     """Print the table of formats."""
     print(
-        "| file | size | other program | br.read, ratio | with trusted=True |\n|---|---|---|---|---|"
+        "| file | size | beside | its wall, processor time | wall | wall, trusted | processor, trusted |"
     )
+    print("|---|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         for title, path, told, fs in texts(folder, rows):

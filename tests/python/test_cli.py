@@ -523,4 +523,5 @@ def test_what_a_file_does_not_say_is_said_on_the_command_line(
         main(["spectrum", str(path), "--plain", "--skip", "2", "--time", "none", "--fs", "1000"])
         == 0
     )
+    capsys.readouterr()
     assert "columns" in refused(capsys, "spectrum", str(path), *said[:-1], "7")

@@ -58,7 +58,7 @@ def read(
     the argument.
 
     A child process reads the file, so that a damaged or malicious one can neither crash this process nor fill the
-    memory. It takes some 0.2 s to start, reads all later files, too, and ends with this process.
+    memory. It takes some 0.3 s to start, reads all later files, too, and ends with this process.
 
     Parameters
     ----------

@@ -241,11 +241,7 @@ class _Body:
     def _canonical(self, piece: bytes) -> bytes | None:
         """Return a piece with points as decimal marks and nothing but separators between numbers."""
         layout = self._layout
-        # Ends of lines, the sign that typesetters use for a minus, the end of old texts: by their first bytes, which
-        # are looked for faster.
-        for old, new in ((b"\r\n", b"\n"), (b"\xe2\x88\x92", b"-"), (b"\x1a", b"")):
-            if old[:1] in piece:
-                piece = piece.replace(old, new)
+        piece = _plain(piece)
         if not self._decided and layout.separator != "," and (b"," in piece or b"." in piece):
             # Whole numbers so far.
             self._decided, self._decimal = True, "," if b"," in piece else "."
@@ -329,6 +325,14 @@ class _Body:
                 way = f"cut the file there, or read what follows with skip={at + number}"
                 reason = f"{self._footer} interrupts the table, and line {at + number + 1} has numbers again"
                 raise FileError(str(self._path), f"not a table of numbers: {reason}; {way}")
+
+
+def _plain(piece: bytes) -> bytes:
+    """Return lines ended by new lines alone, with the common sign of minus, without the end of old texts."""
+    for old, new in ((b"\r\n", b"\n"), ("−".encode(), b"-"), (b"\x1a", b"")):
+        if old[:1] in piece:  # is found faster
+            piece = piece.replace(old, new)
+    return piece
 
 
 def _without_blanks(piece: bytes, mark: bytes) -> bytes:

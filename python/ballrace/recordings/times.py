@@ -146,7 +146,7 @@ class Steps:
 
     @property
     def are_nearly_equal(self) -> bool:
-        """Whether they are those of a straight line, nearly, as times are that are rounded, jitter or have gaps."""
+        """Whether they are nearly those of a straight line, as of times that are rounded, jitter or have gaps."""
         length = self.mean * (self.count - 1)
         return self.spread <= max(_STRAIGHT * length, 2.05 * self.grain)
 
