@@ -291,6 +291,10 @@ REFUSED: dict[str, tuple[str, str]] = {
         table([*rows()[:20], "0.1,x", *rows()[20:]], "t [s],a"),
         r"column a has .*'x' in line 22",
     ),
+    "a broken row among the first": (
+        table([*rows()[:5], "0.1,---", *rows()[5:]], "t [s],a"),
+        r"column a has .*'---' in line 7",
+    ),
     "a row that is cut": (
         table(rows(), "t [s],a", below=("0.01171",)),
         r"line 302 has 1 fields where the others have 2",
@@ -453,6 +457,10 @@ SCOPES: dict[str, tuple[str, str]] = {
     "second and value": (scope("Record Length,Analog:300", "Second,Value"), ""),
     "brackets": (scope('"Time(s)","Acc(g)"'), "g"),
     "sep= of a spreadsheet": ("sep=;\n" + table(rows(";"), "t [s];a [g]"), "g"),
+    "sections of a head": (
+        table(rows(t=False), "[Header]", "SampleRate=25600", "Unit=g", "[Data]"),
+        "g",
+    ),
     "unit of the signal above": (
         table(rows(t=False), "Sampling rate: 25600 Hz", "Unit: m/s2", "Sensor 3"),
         "m/s^2",

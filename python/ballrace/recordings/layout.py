@@ -538,7 +538,14 @@ def _are_titles(fields: Sequence[str]) -> bool:
     """Whether fields may be names or units: text, but for numbers of channels behind the first."""
     kinds = "".join(kind_of(text, (".", "")) for text in fields)
     if len(fields) == 1:
-        return kinds == "t" and len(fields[0]) < 80 and not re.search(r"^\d|[:=]", fields[0])
+        inner = fields[0].strip("[] ")
+        section = fields[0].startswith("[") and not is_unit(inner) and time_unit(inner) is None
+        return (
+            kinds == "t"
+            and len(fields[0]) < 80
+            and not section
+            and not re.search(r"^\d|[:=]", fields[0])
+        )
     if "n" not in kinds:
         return "t" in kinds and "d" not in kinds
     numbers = [text for text, kind in zip(fields, kinds, strict=True) if kind == "n"]
@@ -584,9 +591,10 @@ def _check_preamble(
     marked = [k for k in alike if best.number[0] in texts[k]]
     follow = any(b - a == 1 for a, b in pairwise(alike))
     if follow or marked or (alike and len(best.own) > 1):
-        line = used[alike[-1]] + 1
-        between = used[alike[-1] + 1] + 1
-        shown = repr(texts[alike[-1] + 1].strip()[:40])
+        broken = alike[-1] + 1
+        _check_first_row(path, used[broken], texts[: broken + 1], best, best.kinds[broken])
+        line, between = used[alike[-1]] + 1, used[broken] + 1
+        shown = repr(texts[broken].strip()[:40])
         reason = f"line {between} ({shown}) interrupts a table, which line {line} belongs to"
         raise FileError(
             str(path), f"not a table of numbers: {reason}; skip={between} reads what follows"
@@ -602,7 +610,7 @@ def _check_first_row(
     width = len(best.own)
     if not _is_mixed_row(kinds) or kinds[0] != "n" or len(kinds) != width:
         return
-    rows = (_title_fields(text, best, width) for text in texts[-1 - _NAMES : -1])
+    rows = (_title_fields(text, best, width) for text in reversed(texts[:-1]))
     names = [named(title)[0] for title in next((row for row in rows if row), [])]
     fields = best.fields(texts[-1])
     raise FileError(str(path), broken_row(fields, best.own, names, line + 1, best.number))
