@@ -328,9 +328,13 @@ def dropping(beside, file, mo, opened):
             "skip": mo.ui.number(
                 0, 1_000_000, step=1, value=0, label="lines to skip", debounce=True
             ),
-            "columns": mo.ui.text(label="columns that are signals: names, or places from 0"),
+            "columns": mo.ui.text_area(
+                rows=1, label="columns that are signals: names, or places from 0"
+            ),
             "decimal": mo.ui.dropdown([".", ","], label="decimal mark"),
-            "time": mo.ui.text(label="column of the times, or of a clock; none: no column"),
+            "time": mo.ui.text_area(
+                rows=1, label="column of the times, or of a clock; none: no column"
+            ),
             "time_unit": mo.ui.dropdown(list(beside.TIME_UNITS), label="unit of the times"),
         }
     )
@@ -338,7 +342,7 @@ def dropping(beside, file, mo, opened):
     mo.vstack(
         [
             mo.md("## A measured record"), dropped_file, record_fs, record_rpm, record_unit,
-            mo.accordion({"what the file does not say": record_said}),
+            mo.md("What the file does not say:"), *record_said.elements.values(),
         ]
     )  # fmt: skip
     return begun_with, dropped_file, record_fs, record_rpm, record_said, record_unit
@@ -351,8 +355,9 @@ def received(BallraceError, beside, begun_with, dropped_file, mo, record_fs, rec
     dropped, column, unread = None, None, None
     if holding is not None:
         try:
-            said = beside.said_by(record_said.value)
-            dropped = beside.received(*holding, record_fs.value or None, **said)
+            dropped = beside.received(
+                *holding, record_fs.value or None, **beside.said_by(record_said.value)
+            )
             column = mo.ui.dropdown(
                 list(dropped.record), value=dropped.record.channel().name, label="column"
             )
