@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from ..spectra.pieces import hann
 from ..spectra.whitening import flattened
 
 if TYPE_CHECKING:
@@ -182,9 +183,11 @@ def half_spectrum(x: NDArray[np.float64]) -> NDArray[np.complex128]:
     began, that step would be an impact.
     """
     from scipy.fft import rfft
-    from scipy.signal.windows import tukey
 
-    found: NDArray[np.complex128] = rfft((x - x.mean()) * tukey(x.size, _FADED))[: x.size // 2]
+    # A Tukey window.
+    from_end = np.minimum(np.arange(x.size), np.arange(x.size)[::-1])
+    fade = 0.5 - 0.5 * np.cos(np.pi * np.minimum(from_end * (2.0 / (_FADED * (x.size - 1))), 1.0))
+    found: NDArray[np.complex128] = rfft((x - x.mean()) * fade)[: x.size // 2]
     return found
 
 
@@ -207,9 +210,8 @@ def band_envelope(
 def line_spectrum(x: NDArray[np.float64], m: int) -> NDArray[np.float64]:
     """Return the first ``m`` amplitudes of a Hann-weighted spectrum; zero where there are fewer."""
     from scipy.fft import rfft
-    from scipy.signal.windows import hann
 
-    found = np.abs(rfft((x - x.mean()) * hann(x.size, sym=False)))[:m]
+    found = np.abs(rfft((x - x.mean()) * hann(x.size)))[:m]
     return np.pad(found, (0, m - found.size))
 
 

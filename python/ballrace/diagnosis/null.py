@@ -40,7 +40,7 @@ __all__ = [
 ACCUSED = PARTS[:3]
 """Parts that a verdict may name: the cage's line alone is no sign of damage."""
 
-_COUNT = 1000
+_COUNT = 600
 """Combs of the null."""
 
 _APART = 0.02

@@ -20,7 +20,7 @@ _METHOD = (
     "Prewhitening by the cepstrum, and over a running mean as wide as the shaft's rate; spectra of the squared "
     "envelope in overlapping bands, over their medians. For each part the mean level of its lines, the largest "
     "over speeds of the cage of 0.955 to 1.015 times the nominal one (of balls orders of 0.98 to 1.02) and over "
-    "the bands; z against the same of a thousand combs of this record at orders that no part has; a Gumbel "
+    "the bands; z against the same of hundreds of combs of this record at orders that no part has; a Gumbel "
     "distribution makes it a probability. Other parts are looked for at the speed of the cage that the surest one "
     "shows, without its lines."
 )

@@ -66,7 +66,7 @@ def diagnose(
 
     The record is prewhitened in two ways; in overlapping bands the squared envelope's spectrum is searched for
     the combs of lines that faults of each part have, all at one speed of the cage. Their heights are compared
-    with a thousand combs at orders of the same record that no part has, so that the rate of false alarms is
+    with hundreds of combs at orders of the same record that no part has, so that the rate of false alarms is
     known, without training and without a threshold in decibels. Lines that stand out are damage where they are
     deep, come from impacts and are not tiny; otherwise they are left open, and only in a run itself called
     healthy. Lines that chance has in up to three times as many records as ``false_alarm`` allows are damage at

@@ -12,7 +12,7 @@ from .checks import checked_length
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["piece_length", "transforms"]
+__all__ = ["hann", "piece_length", "transforms"]
 
 _SHORTEST = 8
 """Samples of a piece, at least."""
@@ -35,6 +35,15 @@ def piece_length(signal: NDArray[np.float64], length: int | None, pieces: int, f
     return samples
 
 
+def hann(samples: int) -> NDArray[np.float64]:
+    """Return the Hann window of a piece that is repeated, as :func:`scipy.signal.windows.hann` with ``sym=False``.
+
+    The import of scipy's takes longer than a verdict.
+    """
+    window: NDArray[np.float64] = np.hanning(samples + 1)[:-1]
+    return window
+
+
 def transforms(
     x: NDArray[np.float64] | NDArray[np.complex128], samples: int
 ) -> NDArray[np.complex128]:
@@ -53,9 +62,8 @@ def transforms(
         Without a scale.
     """
     from scipy.fft import fft, rfft
-    from scipy.signal.windows import hann
 
     cut = np.lib.stride_tricks.sliding_window_view(x, samples)[:: max(samples // 2, 1)]
-    windowed = cut * hann(samples, sym=False)
+    windowed = cut * hann(samples)
     found: NDArray[np.complex128] = fft(windowed) if np.iscomplexobj(x) else rfft(windowed)
     return found
