@@ -1,4 +1,4 @@
-//! One benchmark a layer: the power, a contact, a right-hand side by nodes, slices, balls, threads,
+//! Benchmarks, one a layer: the power, a contact, a right-hand side by nodes, slices, balls, threads,
 //! instruction set and rings that tilt, the integrator alone, a run, the static solve. `cargo bench -p ballrace-benches --bench layers`.
 
 use std::hint::black_box;
@@ -211,7 +211,7 @@ fn threads(c: &mut Criterion) {
     group.finish();
 }
 
-/// As many states as the wheel bearing has, and next to nothing to evaluate.
+/// Springs with as many states as the wheel bearing has, and next to nothing to evaluate.
 struct Springs;
 
 impl System for Springs {

@@ -83,7 +83,7 @@ pub use statics::{
     equilibrium_under, load_distribution, stiffness,
 };
 
-/// What the bindings for Python (`src/python`) and the FMU (`fmu`) use beside the interface. No other program should: it changes without notice.
+/// Interface of the bindings for Python (`src/python`) and the FMU (`fmu`) beside the public one. No other program should use it: it changes without notice.
 #[doc(hidden)]
 pub mod bindings {
     pub use crate::base::memory::{available, within};

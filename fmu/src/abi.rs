@@ -26,13 +26,13 @@ const FATAL: Status = 4;
 /// `fmi3LogMessageCallback`.
 type LogMessage = unsafe extern "C" fn(*mut c_void, Status, *const c_char, *const c_char);
 
-/// What an `fmi3Instance` points to.
+/// Handle to which an `fmi3Instance` points.
 pub struct Handle {
     instance: Instance,
     log: Log,
 }
 
-/// Where messages go.
+/// Log to which messages go.
 struct Log {
     message: Option<LogMessage>,
     environment: *mut c_void,
@@ -68,7 +68,7 @@ fn status(log: &Log, work: impl FnOnce() -> FmuResult<()>) -> Status {
     }
 }
 
-/// What a panic says.
+/// Words of a panic.
 fn words(panic: &(dyn Any + Send)) -> &str {
     let owned = panic.downcast_ref::<String>().map(String::as_str);
     owned
@@ -129,7 +129,7 @@ pub extern "C" fn fmi3GetVersion() -> *const c_char {
     c"3.0".as_ptr()
 }
 
-/// There is no debug log: what is refused or fails is logged in any case.
+/// Debug log that there is not: what is refused or fails is logged in any case.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3SetDebugLogging(
     _: *mut Handle,

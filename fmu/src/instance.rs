@@ -24,7 +24,7 @@ const CLOCK: f64 = 1e-6;
 /// A result, or the message of what is refused or has failed.
 pub type FmuResult<T> = std::result::Result<T, String>;
 
-/// Where an instance is in its life (section 2.3).
+/// Phase of an instance's life (section 2.3).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 enum Phase {
     Instantiated,
@@ -39,7 +39,7 @@ pub struct Instance {
     phase: Phase,
     /// Values that were set, by their references.
     values: BTreeMap<usize, f64>,
-    /// Those that the simulation does not know yet.
+    /// Inputs that the simulation does not know yet.
     new: BTreeSet<usize>,
     /// The importer's time at the simulation's t = 0 \[s\].
     start: f64,
@@ -51,13 +51,13 @@ pub struct Instance {
 /// How rings whose motions are given were led.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 struct Led {
-    /// Whether any of them has been moved.
+    /// Whether any of the rings has been moved.
     moves: bool,
-    /// Their speeds at the beginning of the last step, by the references of their places, and its length \[s\].
+    /// Speeds of the inputs at the beginning of the last step, by the references of their places, and its length \[s\].
     before: Option<(BTreeMap<usize, f64>, f64)>,
 }
 
-/// What was computed of the state where the simulation stands.
+/// Answers computed of the state where the simulation stands.
 #[derive(Default)]
 struct Answers {
     /// Rates of all states.
@@ -79,19 +79,19 @@ pub struct State {
 }
 
 impl State {
-    /// As bytes.
+    /// The state as bytes.
     pub fn to_bytes(&self) -> FmuResult<Vec<u8>> {
         serde_json::to_vec(self).map_err(|e| e.to_string())
     }
 
-    /// Of such bytes.
+    /// The state of such bytes.
     pub fn from_bytes(bytes: &[u8]) -> FmuResult<Self> {
         serde_json::from_slice(bytes).map_err(|e| format!("no state of this FMU: {e}"))
     }
 }
 
 impl Instance {
-    /// Of a scene, as text.
+    /// The instance of a scene, as text.
     pub fn new(scene: &str, token: &str) -> FmuResult<Self> {
         let table = Scene::from_toml(scene).and_then(Table::of);
         let table = table.map_err(|e| e.to_string())?;
@@ -113,7 +113,7 @@ impl Instance {
         })
     }
 
-    /// As it was made.
+    /// Resets the instance to what it was when it was made.
     pub fn reset(&mut self) {
         self.phase = Phase::Instantiated;
         self.values.clear();
@@ -340,7 +340,7 @@ impl Instance {
         of.into_iter().filter_map(change).collect()
     }
 
-    /// Its state.
+    /// State of the instance.
     pub fn state(&mut self) -> State {
         State {
             token: self.table.token.clone(),

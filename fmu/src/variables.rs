@@ -12,7 +12,7 @@ use serde_json::Value;
 /// Longest list of numbers whose items are parameters; those of a table in time, a profile or a texture are none.
 const LONGEST: usize = 8;
 
-/// What forces and moments in these directions are called.
+/// Names of forces and moments in these directions.
 const WRENCH: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
 
 /// A variable.
@@ -25,7 +25,7 @@ pub struct Variable {
     pub source: Source,
 }
 
-/// Where its value comes from.
+/// Origin of a variable's value.
 #[derive(Debug)]
 pub enum Source {
     Time,
@@ -45,7 +45,7 @@ pub enum Source {
     Loads(Race, Range<usize>),
 }
 
-/// What a field is to the one who couples.
+/// Role of a field for the one who couples.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
     /// An input that is set without compiling.
@@ -82,12 +82,12 @@ pub struct Table {
     /// The scene, with a load of 0 for each direction in which a ring may be pushed.
     pub scene: Scene,
     pub list: Vec<Variable>,
-    /// By which an importer is sure that description and library belong together.
+    /// Token by which an importer is sure that description and library belong together.
     pub token: String,
 }
 
 impl Table {
-    /// Of a scene.
+    /// The variables of a scene.
     pub fn of(scene: Scene) -> Result<Self> {
         let token = token(&scene);
         let mut list = vec![Variable {

@@ -1,4 +1,4 @@
-//! All errors, each with the place, the value and what to try next.
+//! The crate's errors, each with the place, the value and what to try next.
 
 use serde::Serialize;
 
@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use crate::base::quantities;
 
-/// What `ballrace` refuses or fails at.
+/// An error of the crate: input that `ballrace` refuses, or work at which it fails.
 #[derive(Debug, Clone, PartialEq, Error, Serialize)]
 #[non_exhaustive]
 pub enum Error {
@@ -17,7 +17,7 @@ pub enum Error {
         path: String,
         /// The offending value as the user wrote it.
         value: String,
-        /// What is allowed there.
+        /// Values that are allowed there.
         allowed: String,
     },
     /// The static solve found no stable equilibrium.
@@ -42,7 +42,7 @@ pub enum Error {
         /// Elements that limit the step, the fastest first: contacts as `row0.ball3.outer` (ball and race), a cage as
         /// `row0.cage`, a support as `outer.support`. Empty if nothing acts there.
         contacts: Vec<String>,
-        /// What failed, at which contacts, and what to try.
+        /// The failure, the contacts at which it happened, and what to try.
         reason: String,
     },
     /// The observer (Ctrl-C, a callback) asked to stop.
@@ -62,7 +62,7 @@ pub enum Error {
         time: f64,
         /// The limit, `time_limit` or `max_steps`.
         name: &'static str,
-        /// Its value, in seconds or steps.
+        /// The limit's value, in seconds or steps.
         limit: f64,
     },
     /// More memory would be needed than is available; nothing was computed.
@@ -76,7 +76,7 @@ pub enum Error {
         needed: f64,
         /// Least of the machine's free memory and what the limits of the process and its control groups leave \[bytes\].
         available: f64,
-        /// For what, and how to need less.
+        /// The purpose of the memory, and how to need less.
         what: String,
     },
     /// A panic in this crate, caught so that one case of many does not stop the others.

@@ -24,7 +24,7 @@ use crate::base::error::{Error, Result};
 pub struct Interrupt(Arc<AtomicBool>);
 
 impl Interrupt {
-    /// One that lets everything go on.
+    /// An interrupt that lets everything go on.
     pub fn new() -> Self {
         Self::default()
     }
@@ -34,7 +34,7 @@ impl Interrupt {
         self.0.store(true, Ordering::Relaxed);
     }
 
-    /// Whether it is to stop.
+    /// Whether the work is to stop.
     pub fn is_set(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }

@@ -11,7 +11,7 @@ use std::path::Path;
 use crate::base::error::{Error, Result};
 use crate::base::quantities::GIB;
 
-/// What a run may take where the system does not report its memory \[bytes\].
+/// Memory that a run may take where the system does not report its own \[bytes\].
 const UNREPORTED: f64 = 8.0 * GIB;
 /// Share of what there is that a run may set aside: the rest is for stacks, the solver and the caller.
 const SHARE: f64 = 0.9;
@@ -44,7 +44,7 @@ pub(crate) fn check(needed: f64, what: impl FnOnce() -> String) -> Result<()> {
     })
 }
 
-/// What a run may set aside now \[bytes\].
+/// Memory that a run may set aside now \[bytes\].
 pub fn available() -> f64 {
     let root = Path::new("/");
     let limits = [free(root), address_space(root), control_groups(root)];
@@ -58,7 +58,7 @@ pub fn available() -> f64 {
 }
 
 thread_local! {
-    /// What the work of this thread may take of what there is \[bytes\].
+    /// Share of the memory for the work of this thread \[bytes\].
     static PART: Cell<f64> = const { Cell::new(f64::INFINITY) };
 }
 
@@ -80,7 +80,7 @@ fn free(root: &Path) -> Option<f64> {
     kilobytes(&root.join("proc/meminfo"), "MemAvailable:")
 }
 
-/// What is left of RLIMIT_AS.
+/// Address space that RLIMIT_AS leaves.
 fn address_space(root: &Path) -> Option<f64> {
     let limits = fs::read_to_string(root.join("proc/self/limits")).ok()?;
     let line = limits
@@ -90,7 +90,7 @@ fn address_space(root: &Path) -> Option<f64> {
     Some(limit - kilobytes(&root.join("proc/self/status"), "VmSize:")?)
 }
 
-/// What is left of the control groups of the process, versions 1 and 2, and of those above them.
+/// Memory that the control groups of the process, versions 1 and 2, and those above them leave.
 fn control_groups(root: &Path) -> Option<f64> {
     let groups = fs::read_to_string(root.join("proc/self/cgroup")).ok()?;
     let left = groups.lines().flat_map(|line| {

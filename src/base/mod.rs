@@ -1,4 +1,4 @@
-//! What every module uses: errors, numbers in messages, memory that is checked beforehand, stopping from outside, threads, wall time, words that
+//! Foundations of every module: errors, numbers in messages, memory that is checked beforehand, stopping from outside, threads, wall time, words that
 //! runs remember, complete lists of variants.
 
 pub(crate) mod clock;

@@ -1,4 +1,4 @@
-//! This crate's thread pools, one per process and size; never rayon's global one. Without the feature `parallel` there are none, and
+//! Thread pools of this crate, one per process and size; never rayon's global one. Without the feature `parallel` there are none, and
 //! all work is done on the calling thread, with the same bits.
 //!
 //! A forked child inherits the memory of its parent's pool but not its threads, and would wait for them without end;
@@ -44,7 +44,7 @@ static POOLS: LazyLock<Mutex<Pools>> = LazyLock::new(Mutex::default);
 
 #[cfg(feature = "parallel")]
 impl Pool {
-    /// That of so many threads; none for one.
+    /// The pool of so many threads; none for one.
     ///
     /// # Errors
     /// [`Error::Scene`] for more threads than the system grants.
@@ -114,7 +114,7 @@ impl Pool {
 
 #[cfg(not(feature = "parallel"))]
 impl Pool {
-    /// None.
+    /// No pool, as the feature `parallel` is off.
     ///
     /// # Errors
     /// Never.
@@ -123,7 +123,7 @@ impl Pool {
         Ok(None)
     }
 
-    /// There is none to work in.
+    /// No pool to work in: the feature `parallel` is off.
     pub fn inside<T>(
         &self,
         _progress: &mut dyn FnMut(f64) -> ControlFlow<()>,

@@ -65,7 +65,7 @@ fn unit_of(x: f64, units: &Units) -> Option<(f64, &'static str)> {
     units.iter().find(|(scale, _)| x.abs() >= *scale).copied()
 }
 
-/// So many digits after the first, those that are zeros at the end left out; with an exponent for sizes that are not
+/// A number with so many digits after the first, those that are zeros at the end left out; with an exponent for sizes that are not
 /// written plainly.
 fn rounded(x: f64, digits: usize, plain: Range<f64>) -> String {
     let short: f64 = format!("{x:.digits$e}").parse().unwrap_or(x);

@@ -1,4 +1,4 @@
-//! What a run remembers between two steps, as words of 64 bits: one list of fields says what is saved and what is loaded.
+//! The state that a run remembers between two steps, as words of 64 bits: one list of fields says what is saved and what is loaded.
 
 use std::collections::VecDeque;
 
@@ -15,14 +15,14 @@ pub(crate) struct Words {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Unfit;
 
-/// What can be saved and loaded, bit by bit.
+/// State that can be saved and loaded, bit by bit.
 pub(crate) trait Remembered {
     /// Passes all that is remembered, in one order.
     fn pass(&mut self, words: &mut Words);
 }
 
 impl Words {
-    /// What something remembers.
+    /// The words that a value remembers.
     pub fn saved(of: &mut (impl Remembered + ?Sized)) -> Vec<u64> {
         let mut words = Self {
             list: Vec::new(),

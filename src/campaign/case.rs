@@ -1,4 +1,4 @@
-//! One case: a run and its features; all errors become its outcome.
+//! The run of one case and its features; all errors become its outcome.
 
 use serde::Serialize;
 
@@ -17,35 +17,35 @@ use crate::run::simulate_with_progress;
 use crate::scene::Scene;
 use crate::signals::Signals;
 
-/// What to run.
+/// A case: what to run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Case {
     /// The scene.
     pub scene: Scene,
-    /// How long, how sampled, from what start; its number of threads does not count, it is one.
+    /// Options of the run: how long, how sampled, from what start; its number of threads does not count, it is one.
     pub run: Run,
 }
 
-/// What became of a case.
+/// The outcome of a case.
 #[derive(Debug, Clone, Serialize)]
 #[non_exhaustive]
 pub struct Outcome {
     /// Place of the case among all, from 0.
     pub index: usize,
-    /// What it gave, or why it failed.
+    /// The case's results, or why it failed.
     pub result: Result<Finished>,
     /// Wall time, features included \[s\].
     pub wall_time: f64,
 }
 
-/// What a case gives.
+/// The results of a case.
 #[derive(Debug, Clone, Serialize)]
 #[non_exhaustive]
 pub struct Finished {
-    /// Its features.
+    /// Features of the case.
     pub features: Vec<Feature>,
-    /// Its signals.
+    /// Signals of the case.
     pub signals: Signals,
 }
 

@@ -96,12 +96,12 @@ fn in_turn(
     }
 }
 
-/// What the threads have in common.
+/// State that the threads have in common.
 struct Shared {
     queue: Mutex<Receiver<(usize, Case)>>,
     options: FeatureOptions,
     stop: Interrupt,
-    /// What each case may set aside \[bytes\].
+    /// Memory that each case may set aside \[bytes\].
     memory: f64,
 }
 
@@ -118,7 +118,7 @@ fn count(threads: usize) -> Result<usize> {
     }
 }
 
-/// One thread's life: cases until there are no more.
+/// The loop of one thread: cases until there are no more.
 fn work(shared: &Shared, hand_in: &Sender<Outcome>) {
     let Shared {
         queue,
@@ -179,7 +179,7 @@ fn feed(
     }
 }
 
-/// What comes in until every thread has let go of its sender, or patience ends.
+/// Outcomes that come in until every thread has let go of its sender, or patience ends.
 fn await_last(outcomes: &Receiver<Outcome>) -> Vec<Outcome> {
     let begun = clock::now();
     let left = || (PATIENCE - clock::since(begun)).clamp(0.0, PATIENCE);
@@ -187,7 +187,7 @@ fn await_last(outcomes: &Receiver<Outcome>) -> Vec<Outcome> {
     std::iter::from_fn(|| next().ok()).collect()
 }
 
-/// What has come in, or within the time of attention comes in.
+/// Outcomes that have come in, or come in within the time of attention.
 fn gather(outcomes: &Receiver<Outcome>) -> Vec<Outcome> {
     let mut done: Vec<Outcome> = outcomes.recv_timeout(ATTENTION).into_iter().collect();
     done.extend(outcomes.try_iter());
@@ -242,7 +242,7 @@ mod tests {
         assert_eq!(seen, 1);
     }
 
-    /// As of a thread in a very long evaluation, which the stop does not reach before its end.
+    /// A thread in a very long evaluation is not reached by the stop before its end.
     #[test]
     fn a_stop_does_not_wait_for_the_deaf() {
         let (deaf, outcomes) = channel::<Outcome>();

@@ -33,7 +33,7 @@ impl<T: Number, const N: usize> Dual<T, N> {
         dual
     }
 
-    /// A function of it, from the function's value and slope.
+    /// Chain rule: a function of the number, from the function's value and slope.
     #[inline(always)]
     fn chain(self, value: T, slope: T) -> Self {
         let mut slopes = self.slopes;
@@ -138,7 +138,7 @@ impl<T: Number, const N: usize> Number for Dual<T, N> {
         Self::constant(self.value.same(x))
     }
 
-    /// At 0, where it has no slope, the slope counts as 0.
+    /// Square root; at 0, where it has no slope, the slope counts as 0.
     #[inline(always)]
     fn sqrt(self) -> Self {
         let value = self.value.sqrt();

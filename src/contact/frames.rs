@@ -16,7 +16,7 @@ use super::{V2, cross};
 use crate::simd::Number;
 use crate::tilt::{Frame, Rotation};
 
-/// Where a body is and how it moves: x, y, z and the angle about z.
+/// Place and motion of a body: x, y, z and the angle about z.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Motion {
     /// Centre in the plane \[m\].
@@ -41,7 +41,7 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// From the four positions (x, y, z \[m\], θ \[rad\]) and the four velocities of a body.
+    /// A motion from the four positions (x, y, z \[m\], θ \[rad\]) and the four velocities of a body.
     ///
     /// # Panics
     /// If either has less than four numbers.
@@ -73,12 +73,12 @@ impl Motion {
         Vector3::new(self.across.x, self.across.y, self.omega)
     }
 
-    /// Its centre \[m\].
+    /// The body's centre \[m\].
     pub(crate) fn place(&self) -> Vector3<f64> {
         Vector3::new(self.centre.x, self.centre.y, self.z)
     }
 
-    /// This body as seen by who moves with a ring's centre, but does not turn with it.
+    /// The body as seen by who moves with a ring's centre, but does not turn with it.
     #[inline]
     pub(crate) fn seen_from(&self, ring: &Self) -> Self {
         Self {
@@ -128,7 +128,7 @@ impl Motion {
         self.centre.y.atan2(self.centre.x)
     }
 
-    /// How fast that turns \[rad/s\]: the speed of the cage's frame, where a ball rests in it.
+    /// Rate of that turning \[rad/s\]: the speed of the cage's frame, where a ball rests in it.
     pub(crate) fn orbit_speed(&self) -> f64 {
         cross(self.centre, self.velocity) / self.centre.norm_squared()
     }
@@ -138,21 +138,21 @@ impl Motion {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct TiltedRing {
     pub rotation: Rotation,
-    /// Its centre of mass \[m\].
+    /// Centre of mass of the ring \[m\].
     centre: Vector3<f64>,
-    /// Of the centre of mass \[m/s\].
+    /// Velocity of the centre of mass \[m/s\].
     velocity: Vector3<f64>,
-    /// Its angular velocity, in its own frame \[rad/s\].
+    /// Angular velocity of the ring, in its own frame \[rad/s\].
     turning: Vector3<f64>,
     /// Axial place of the centre of mass in its frame \[m\].
     offset: f64,
     theta: f64,
-    /// Whether its balls spin freely.
+    /// Whether the ring's balls spin freely.
     balls_turn: bool,
 }
 
 impl TiltedRing {
-    /// Of a ring whose x, y and z are the displacement of its centre of mass, an axial place of the
+    /// The frame of a ring whose x, y and z are the displacement of its centre of mass, an axial place of the
     /// ring's frame \[m\]; its balls spin freely, or about its axis.
     pub fn new(motion: &Motion, rotation: Rotation, offset: f64, balls_turn: bool) -> Self {
         Self {
@@ -166,12 +166,12 @@ impl TiltedRing {
         }
     }
 
-    /// Whether its balls spin freely.
+    /// Whether the ring's balls spin freely.
     pub fn balls_turn(&self) -> bool {
         self.balls_turn
     }
 
-    /// From the centre of mass to a ball's centre, in the scene's frame \[m\].
+    /// Vector from the centre of mass to a ball's centre, in the scene's frame \[m\].
     pub fn arm(&self, ball: &Motion) -> Vector3<f64> {
         ball.place() - self.centre
     }
@@ -244,7 +244,7 @@ impl TiltedRing {
         [[x, y, z + self.offset], velocity, spin]
     }
 
-    /// What turning about its centre of mass does to the origin of its frame, both in that frame \[m/s\].
+    /// Velocity of the origin of the ring's frame by turning about its centre of mass, both in that frame \[m/s\].
     pub fn moved_at_origin(&self, turning: &Vector3<f64>) -> Vector3<f64> {
         turning.cross(&(Vector3::z() * -self.offset))
     }

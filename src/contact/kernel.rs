@@ -17,11 +17,11 @@ use crate::simd::Number;
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Whole<T> {
     pub section: Section<T>,
-    /// One over the ball's radius \[1/m\].
+    /// Inverse of the ball's radius \[1/m\].
     pub inverse: T,
     /// Half of the zone along the line that it is cut along \[m\].
     pub half: T,
-    /// Its ends along ζ \[m\].
+    /// Ends of the zone along ζ \[m\].
     pub ends: (T, T),
     /// [`super::Elastic::strength`].
     pub strength: T,
@@ -45,15 +45,15 @@ pub(super) struct Element<T> {
     pub length: T,
     /// Elastic force per length \[N/m\].
     pub load: T,
-    /// In-plane and axial part of the normal force over its magnitude.
+    /// Shares of the normal force in the plane and along the axis, over its magnitude.
     pub share: (T, T),
-    /// What friction weighs over the normal force.
+    /// Weight of friction over the normal force.
     pub rubbing: T,
 }
 
 /// Takes the elements of a whole contact.
 pub(super) trait Receiver<T> {
-    /// One element, which stands for so many. Wants `#[inline(always)]`.
+    /// Adds one element, which stands for so many. Wants `#[inline(always)]`.
     fn element<const FMA: bool, const SYMMETRIC: bool>(&mut self, element: &Element<T>, times: u32);
 }
 
@@ -282,14 +282,14 @@ fn nodes<const SYMMETRIC: bool>(
     })
 }
 
-/// What the force of an element depends on.
+/// State on which the force of an element depends.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ElementState<T> {
     /// Elastic force \[N\].
     pub elastic: T,
-    /// In-plane and axial part of the normal force over its magnitude.
+    /// Shares of the normal force in the plane and along the axis, over its magnitude.
     pub share: (T, T),
-    /// What friction weighs over it.
+    /// Weight of friction over the normal force.
     pub rubbing: T,
     /// sin α and cos α: the meridional direction of slip is −sin α n_e + cos α ẑ.
     pub slope: (T, T),
@@ -303,14 +303,14 @@ pub(super) struct ElementState<T> {
     pub rolling: Rolling<T>,
     /// Radii of ball and groove \[m\].
     pub radii: [T; 2],
-    /// What the film of the contact does.
+    /// Effect of the contact's film.
     pub oil: FilmEffect<T>,
 }
 
 /// The force of an element (model sections 4 and 5).
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ElementForce<T> {
-    /// On the ring along n_e, t_e and z \[N\]; the ball gets the opposite.
+    /// Force on the ring along n_e, t_e and z \[N\]; the ball gets the opposite.
     pub on_ring: [T; 3],
     /// The part of friction in it, as it acts on the ball.
     pub friction: [T; 3],
@@ -407,7 +407,7 @@ pub(super) fn force<
     }
 }
 
-/// What a ball that turns across its ring's axis, with w_n and w_t along n_e and t_e \[rad/s\], adds to slip along t_e and along the
+/// Slip that a ball which turns across its ring's axis, with w_n and w_t along n_e and t_e \[rad/s\], adds along t_e and along the
 /// meridian (−sin α, cos α) at h n_e + ζ ẑ from its centre: −w_n ζ and −w_t (ζ sin α + h cos α). None of it is an approach: normal
 /// forces act through the ball's centre, about which it turns.
 #[inline(always)]
@@ -421,7 +421,7 @@ pub(super) fn slip_of_turning<T: Number, const FMA: bool>(
 }
 
 impl<T: Number> ElementState<T> {
-    /// What a traction law reads, at an approach speed and the square of a slip speed.
+    /// Quantities that a traction law reads, at an approach speed and the square of a slip speed.
     #[inline(always)]
     pub fn sliding(&self, approach: T, squared: T) -> Sliding<T> {
         Sliding {

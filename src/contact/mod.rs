@@ -87,7 +87,7 @@ pub fn wrapped(angle: f64) -> f64 {
     angle - std::f64::consts::TAU * (angle / std::f64::consts::TAU).round()
 }
 
-/// One force between ball and ring: a slice on the race or on a fault circle.
+/// A force between ball and ring: a slice on the race or on a fault circle.
 #[doc(hidden)]
 #[derive(Debug, Clone, Copy)]
 pub struct Touch {
@@ -99,7 +99,7 @@ pub struct Touch {
     pub width: f64,
     /// Penetration that the law saw \[m\].
     pub depth: f64,
-    /// What friction weighs here over the normal force, about 1 (see `quadrature`).
+    /// Weight of friction here over the normal force, about 1 (see `quadrature`).
     pub rubbing: f64,
     /// Elastic part of the normal force \[N\].
     pub elastic: f64,
@@ -111,7 +111,7 @@ pub struct Touch {
     pub approach: f64,
     /// Unit vector in the plane, out of the ball at the contact.
     pub(crate) n_e: V2,
-    /// In-plane and axial part of the normal force over its magnitude: (1, tan α), Hertz law: (cos α', sin α').
+    /// Shares of the normal force in the plane and along the axis, over its magnitude: (1, tan α), Hertz law: (cos α', sin α').
     pub share: (f64, f64),
     /// Friction on the ball in the plane \[N\].
     pub(crate) friction: V2,
@@ -123,7 +123,7 @@ pub struct Touch {
     pub friction_power: f64,
     /// Contact point from the ball's centre \[m\].
     pub(crate) arm_ball: V2,
-    /// What rotations of the ball turn it by along its slice: ẑ but at the edges of a cap (see `damage::cap`).
+    /// Axis about which rotations of the ball turn it along its slice: ẑ but at the edges of a cap (see `damage::cap`).
     pub(crate) swing: Vector3<f64>,
     /// Whether damping wanted to pull.
     pub pull: bool,
@@ -136,13 +136,13 @@ pub struct Touch {
 #[doc(hidden)]
 #[derive(Debug, Clone, Copy)]
 pub struct Aside {
-    /// On the ball in the plane \[N\].
+    /// Force on the ball in the plane \[N\].
     pub(crate) plane: V2,
-    /// On the ball along z \[N\].
+    /// Force on the ball along z \[N\].
     pub(crate) axial: f64,
     /// The point from the ball's centre \[m\].
     pub(crate) arm_ball: V2,
-    /// As of a [`Touch`].
+    /// Axis as of a [`Touch`].
     pub(crate) swing: Vector3<f64>,
     /// Moment on the ball across the ring's axis beside that \[N m\].
     pub(crate) across: V2,
@@ -156,13 +156,13 @@ pub trait Sink {
         false
     }
 
-    /// One force.
+    /// Takes one force.
     fn touch(&mut self, touch: &Touch);
 
     /// A force beside those along normals.
     fn aside(&mut self, _force: &Aside) {}
 
-    /// What the oil does in the contact, after its single forces.
+    /// Takes what the oil does in the contact, after its single forces.
     fn oil(&mut self, _oil: &OilTouch) {}
 
     /// A slice would touch but lies beyond a shoulder.

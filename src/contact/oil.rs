@@ -11,16 +11,16 @@ use crate::simd::Number;
 /// Rolling resistance of a contact: of its pressure ahead and behind, so that force and moment are conserved (12.27).
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct RollingResistance<T> {
-    /// On the ball along t = ẑ × n \[N\].
+    /// Force on the ball along t = ẑ × n \[N\].
     pub force: T,
-    /// On the ball about its centre \[N m\]; the ring gets what is left of the force's about its own.
+    /// Moment on the ball about its centre \[N m\]; the ring gets what is left of the force's about its own.
     pub moment: T,
     /// Entrainment speed u \[m/s\].
     pub entrainment: T,
 }
 
 impl<T: Number> RollingResistance<T> {
-    /// Of a ball at a distance d \[m\] from its ring's centre, with a lever R cos α' \[m\].
+    /// The oil's force on a ball at a distance d \[m\] from its ring's centre, with a lever R cos α' \[m\].
     #[inline(always)]
     pub fn new(rolling: T, moves: &Moves<T>, sigma: T, d: T, lever: T) -> Self {
         // (12.13) with r_p = d + σ R cos α', ω_n − θ̇_r = σ slide/d and θ̇_b − θ̇_r = σ spin.
@@ -37,7 +37,7 @@ impl<T: Number> RollingResistance<T> {
     }
 }
 
-/// What a sink receives of the oil in a contact.
+/// Force of the oil in a contact, as a sink receives it.
 #[derive(Debug, Clone, Copy)]
 pub struct OilTouch {
     pub(crate) oil: FilmEffect<f64>,
@@ -49,10 +49,10 @@ pub struct OilTouch {
     pub lambda: f64,
     /// Power that rolling resistance takes out in the film and in the steel \[W\].
     pub power: [f64; 2],
-    /// On the ball in the plane \[N\], and about its centre \[N m\].
+    /// Force on the ball in the plane \[N\], and its moment about the ball's centre \[N m\].
     pub(crate) force: V2,
     pub(crate) moment: f64,
-    /// From the ring's centre to the ball's, and R cos α' \[m\].
+    /// Vector from the ring's centre to the ball's, and R cos α' \[m\].
     pub(crate) apart: V2,
     pub(crate) lever: f64,
 }

@@ -21,7 +21,7 @@ pub(super) struct Moves<T> {
     pub rolling: Rolling<T>,
     /// A contact's arm from the ball's centre, R(z) − d, is this and σ times the groove's height.
     pub arm: T,
-    /// What its film does.
+    /// Effect of the contact's film.
     pub oil: FilmEffect<T>,
 }
 
@@ -78,7 +78,7 @@ impl<T: Number> Slip<T> {
         (plus * fade, minus * fade)
     }
 
-    /// Of the squares of slip along and across the race and of the width.
+    /// Sum of the squares of slip along and across the race and of the width.
     #[inline(always)]
     fn sum<const FMA: bool>(&self, along: T, across: T) -> T {
         let square = across.mul_add::<FMA>(across, self.width);
@@ -93,7 +93,7 @@ impl<T: Number> Slip<T> {
         (z * -second + -first).mul_add::<FMA>(z, v.same(1.0))
     }
 
-    /// What friction per force and slip goes like: 1/(h √(u² + w²)), of a film 1/(h (w + √(u² + w²))). From the [`Self::square`] at u.
+    /// Peak of friction per force and slip, 1/(h √(u² + w²)), of a film 1/(h (w + √(u² + w²))). From the [`Self::square`] at u.
     #[inline(always)]
     pub fn peak<const FMA: bool, const FILM: bool>(&self, square: T, u: T) -> T {
         let over = inverse_root::<T, FMA>(square);
@@ -263,7 +263,7 @@ impl<T: Number> Slip<T> {
 }
 
 impl Slip<Lanes> {
-    /// Of the contacts that a register holds, from one of them on.
+    /// The slip of the contacts that a register holds, from one of them on.
     #[inline(always)]
     pub fn register<S: Simd>(&self, simd: S, from: usize) -> Slip<Vector<S>> {
         let of = |lanes: &Lanes| Vector::load(simd, &lanes.numbers()[from..]);
@@ -280,7 +280,7 @@ impl Slip<Lanes> {
 }
 
 impl Slip<f64> {
-    /// Some slip, for tests.
+    /// A slip for tests.
     #[cfg(test)]
     pub fn made(along: [f64; 5], across: [f64; 3]) -> Self {
         Self {
@@ -293,7 +293,7 @@ impl Slip<f64> {
         }
     }
 
-    /// Some slip under a film, for tests.
+    /// A slip under a film, for tests.
     #[cfg(test)]
     pub fn of_film(along: [f64; 5], across: [f64; 3], bend: f64) -> Self {
         Self {
@@ -306,7 +306,7 @@ impl Slip<f64> {
         }
     }
 
-    /// Whether it is a number everywhere: the middle of the zone lies in the groove.
+    /// Whether the slip is a number everywhere: the middle of the zone lies in the groove.
     pub fn is_finite(&self) -> bool {
         self.along.iter().chain(&self.across).all(|c| c.is_finite())
     }

@@ -47,7 +47,7 @@ impl Wrench {
         [x, y, z, self.moment.z]
     }
 
-    /// What it does to the ring: the opposite, (6) and (7), about the ring's own point, from which the ball stands at a place.
+    /// The wrench on the ring: the opposite, (6) and (7), about the ring's own point, from which the ball stands at a place.
     pub(crate) fn on_ring(&self, place: &Vector3<f64>) -> Self {
         Self {
             force: -self.force,
@@ -56,18 +56,18 @@ impl Wrench {
     }
 }
 
-/// What a contact does to its ball: the sum of its single forces, in the frame of a ring that may tilt.
+/// Wrench of a contact on its ball: the sum of its single forces, in the frame of a ring that may tilt.
 #[derive(Debug, Default)]
 pub(crate) struct WrenchSum {
     pub wrench: Wrench,
-    /// Of the moment what turns caps of the ball across the ring's axis.
+    /// Part of the moment that turns caps of the ball across the ring's axis.
     on_caps: V2,
     pub pulls: u32,
     pub truncated: bool,
 }
 
 impl WrenchSum {
-    /// On the ball, in the scene's frame, and on the ring about its own point, from which the ball stands at a place: in its own frame where
+    /// Wrenches on the ball, in the scene's frame, and on the ring about its own point, from which the ball stands at a place: in its own frame where
     /// it may tilt. Balls that do not spin freely turn about the ring's axis; what acts on their caps across it, in
     /// the ring's frame, turns with them about z of the scene.
     pub fn on_bodies(&self, place: &Vector3<f64>, ring: Option<&TiltedRing>) -> [Wrench; 2] {
@@ -119,7 +119,7 @@ impl Touch {
         [self.friction.x, self.friction.y, self.friction_z]
     }
 
-    /// What it does to the ball, for a share of the normal force given by its magnitude and with friction scaled by
+    /// The wrench on the ball, for a share of the normal force given by its magnitude and with friction scaled by
     /// `friction` (0 or 1).
     pub(crate) fn on_ball(&self, normal: f64, friction: f64) -> Wrench {
         let pressing = self.n_e * (-normal * self.share.0);
@@ -157,7 +157,7 @@ impl Aside {
         self.swing.xy() * cross(self.arm_ball, self.plane) + self.across
     }
 
-    /// What it does to the ball.
+    /// The wrench on the ball.
     pub(crate) fn on_ball(&self) -> Wrench {
         Wrench {
             force: Vector3::new(self.plane.x, self.plane.y, self.axial),
@@ -168,7 +168,7 @@ impl Aside {
 }
 
 impl OilTouch {
-    /// What its rolling resistance does to the ball.
+    /// The wrench of the rolling resistance on the ball.
     pub(crate) fn on_ball(&self) -> Wrench {
         Wrench {
             force: Vector3::new(self.force.x, self.force.y, 0.0),

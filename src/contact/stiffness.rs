@@ -123,7 +123,7 @@ impl Pair {
         sum.0
     }
 
-    /// From the meridional plane to x, y, z: e = σ (d − a − R̃(φ)), c = z₀ − z, the waves R̃ with their first and second
+    /// Derivatives from the meridional plane to x, y, z: e = σ (d − a − R̃(φ)), c = z₀ − z, the waves R̃ with their first and second
     /// derivative by the angle.
     fn in_space(
         &self,
@@ -228,7 +228,7 @@ impl Pair {
         }
     }
 
-    /// What [`Pair::differentiated`] says of nodes on the common chord, u = x · half, over which the ball's surface stands
+    /// Stiffness as of [`Pair::differentiated`] at nodes on the common chord, u = x · half, over which the ball's surface stands
     /// at h = √(R² − u²), by hand: by the distance l and the angle α' of the normal, of which only the former changes the
     /// zone. An equilibrium takes a sixth less time for it.
     fn fitted_on_surface(

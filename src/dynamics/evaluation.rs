@@ -8,7 +8,7 @@ use crate::forces::{self, Use};
 use crate::model::Race;
 
 impl Dynamics<'_> {
-    /// All forces by name, and what becomes of each in a run.
+    /// Uses of all forces by name: what becomes of each in a run.
     pub(crate) fn uses(&self) -> Vec<(&'static str, Use)> {
         let model = self.model;
         let any = |of: fn(&Pair) -> bool| {

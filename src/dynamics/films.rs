@@ -8,12 +8,12 @@ use crate::model::Model;
 #[derive(Debug)]
 pub(super) struct Films {
     model: Box<Model>,
-    /// Of the rings against each other \[rad/s\].
+    /// Speed of the rings against each other \[rad/s\].
     speed: f64,
 }
 
 impl Films {
-    /// None where films stay as they are: without oil, or at a steady speed of the rings.
+    /// The films; none where they stay as they are: without oil, or at a steady speed of the rings.
     pub fn new(model: &Model) -> Option<Self> {
         model.has_films_in_motion().then(|| Self {
             model: Box::new(model.clone()),
@@ -30,7 +30,7 @@ impl Films {
         Some(films)
     }
 
-    /// With the films of the last state.
+    /// The model with the films of the last state.
     pub fn model(&self) -> &Model {
         &self.model
     }

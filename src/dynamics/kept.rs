@@ -7,7 +7,7 @@ use crate::model::{Dof, Model, Race};
 use crate::reduction::Reduction;
 use crate::simd::InstructionSet;
 
-/// What a reduction keeps, and how it is evaluated.
+/// Directions that a reduction keeps, and how they are evaluated.
 #[derive(Debug)]
 pub(super) struct Kept {
     pub reduction: Reduction,

@@ -16,11 +16,11 @@ use crate::{Error, Model, Run, Start, simulate, start};
 /// Truth: geometry. Where a ball is, by what it was moved.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Way {
-    /// Into the outer race by more than half its radius.
+    /// A ball pressed into the outer race by more than half its radius.
     Pressed,
-    /// Along the axis, out of the groove.
+    /// A ball beside the groove, out of it along the axis.
     Beside,
-    /// All balls at the bottom, and the inner ring lifted off them.
+    /// An inner ring lifted off its balls, which are all at the bottom.
     Off,
 }
 
@@ -159,7 +159,7 @@ fn lose(model: &Model, way: Way) -> Vec<f64> {
     y
 }
 
-/// One evaluation notices it, at every instruction set that there is.
+/// Lost balls are noticed by an evaluation, at every instruction set that there is.
 #[test]
 fn an_evaluation_notices_lost_balls_on_every_path() {
     for path in paths() {

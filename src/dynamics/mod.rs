@@ -48,11 +48,11 @@ pub struct Dynamics<'m> {
     forces: Table,
     /// Forces that have a part in the motion, beside contacts; apart those that depend on the sum of the others.
     acting: [Vec<&'static dyn Force>; 2],
-    /// What of them stays the same.
+    /// Part of the forces that stays the same.
     constant: Table,
     /// Supports of the directions that are integrated; the other directions never strain theirs.
     springs: Vec<Spring>,
-    /// One over the mass where a direction is free, 0 where it is not or where the run keeps an axial place.
+    /// Inverse of the mass where a direction is free, 0 where it is not or where the run keeps an axial place.
     mobility: Table,
     pool: Option<Pool>,
     /// Films that follow the rings' speed.
@@ -62,12 +62,12 @@ pub struct Dynamics<'m> {
 }
 
 impl<'m> Dynamics<'m> {
-    /// For evaluations on one thread, of states as [`Model::names`] orders them.
+    /// The right-hand side for evaluations on one thread, of states as [`Model::names`] orders them.
     pub fn new(model: &'m Model) -> Self {
         Self::with(model, Order::Bodies, Guarantees::whole(model))
     }
 
-    /// For the states that a reduction keeps. `start` is a state of all bodies.
+    /// The right-hand side for the states that a reduction keeps. `start` is a state of all bodies.
     ///
     /// # Panics
     /// If the length of `start` is not [`Model::dim`].
@@ -130,7 +130,7 @@ impl<'m> Dynamics<'m> {
         kept.planar = Planar::new(&ground, &forms);
     }
 
-    /// For a run from a state of all bodies, with what it leaves out.
+    /// The right-hand side for a run from a state of all bodies, with what it leaves out.
     pub(crate) fn begin(model: &'m Model, reduction: Option<&Reduction>, start: &[f64]) -> Self {
         match reduction {
             Some(reduction) => Self::reduced(model, reduction.clone(), start),
@@ -198,7 +198,7 @@ impl<'m> Dynamics<'m> {
         &self.state
     }
 
-    /// One over the mass where a direction may accelerate, else 0.
+    /// Inverse of the mass where a direction may accelerate, else 0.
     pub(crate) fn mobility(&self) -> &Table {
         &self.mobility
     }
@@ -374,7 +374,7 @@ fn acting(model: &Model) -> [Vec<&'static dyn Force>; 2] {
     [first, last]
 }
 
-/// What of them stays the same, with moments about z where rings stay parallel.
+/// Forces that stay the same, with moments about z where rings stay parallel.
 fn constant(model: &Model, spatial: bool) -> Table {
     let mut on = Table::zeros(model.bodies.len());
     let mut moments = Default::default();

@@ -1,20 +1,20 @@
-//! From the states of all bodies to those of a run, and back.
+//! Conversion from the states of all bodies to those of a run, and back.
 
 use super::Dynamics;
 use super::kept::Kept;
 use crate::model::{BodyId, Dof};
 
-/// What a state vector holds.
+/// Order of the numbers of a state vector.
 #[derive(Debug)]
 pub(super) enum Order {
     /// Everything, body by body, as [`crate::model::Model::names`] says.
     Bodies,
-    /// What a reduction keeps, direction by direction.
+    /// The directions that a reduction keeps, one by one.
     Kept(Box<Kept>),
 }
 
 impl Dynamics<'_> {
-    /// What each state belongs to: those of the first half of a state vector, in their order.
+    /// Body and direction of each state of the first half of a state vector, in their order.
     pub(crate) fn degrees(&self) -> Vec<(BodyId, Dof)> {
         match &self.order {
             Order::Bodies => self.model.layout().degrees().collect(),

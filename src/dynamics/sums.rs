@@ -2,7 +2,7 @@
 
 use crate::contact::{Aside, OilTouch, Sink, Touch, WrenchSum};
 
-/// What a contact does to its ball by elastic force, damping and friction.
+/// Wrench of a contact on its ball by elastic force, damping and friction.
 #[derive(Default)]
 pub(super) struct SumsByOrigin(pub [WrenchSum; 3]);
 

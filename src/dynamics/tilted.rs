@@ -22,7 +22,7 @@ pub(super) struct SpatialWork {
 }
 
 impl SpatialWork {
-    /// None where nothing turns about x or y.
+    /// The tilted part; none where nothing turns about x or y.
     pub fn new(model: &Model) -> Option<Box<Self>> {
         RingView::both(model).map(|rings| {
             let moments = [Vector3::zeros(); 2];

@@ -74,7 +74,7 @@ pub(super) fn stirred(model: &Model) -> Vec<f64> {
     y
 }
 
-/// All of linear and angular momentum, balls and rings, about the origin.
+/// Linear and angular momentum of balls and rings, about the origin.
 pub(super) fn momenta(model: &Model, y: &[f64]) -> [Vector3<f64>; 2] {
     let layout = model.layout();
     let [mut linear, mut angular] = [Vector3::zeros(); 2];

@@ -1,4 +1,4 @@
-//! What a run costs, by running a little of it.
+//! Cost of a run, by running a little of it.
 
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
@@ -19,14 +19,14 @@ use crate::run::{options, tolerance};
 const PLACES: usize = 8;
 /// Steps that are timed at each.
 const STEPS: usize = 240;
-/// Of these the first ones, which grow.
+/// Number of the first steps, which grow.
 const GROWING: usize = 60;
-/// How often; the fastest counts, the others were disturbed.
+/// Number of repetitions; the fastest counts, the others were disturbed.
 const TIMES: usize = 3;
 /// Evaluations that are timed at once.
 const EVALUATIONS: usize = 60;
 
-/// What a run costs on one thread of this machine, sampling aside.
+/// Cost of a run on one thread of this machine, sampling aside.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Cost {
@@ -36,16 +36,16 @@ pub struct Cost {
     pub evaluation: f64,
     /// Time for the right-hand side alone \[s\].
     pub right_hand_side: f64,
-    /// Of that for the contacts of balls and races \[s\].
+    /// Share of an evaluation for the contacts of balls and races \[s\].
     pub contacts: f64,
-    /// Of that for the cage \[s\].
+    /// Share of an evaluation for the cage \[s\].
     pub cage: f64,
     /// Time for a simulated second \[s\].
     pub seconds: f64,
 }
 
 impl Cost {
-    /// What an evaluation is made of, by name \[s\].
+    /// Parts of an evaluation, by name \[s\].
     pub fn parts(&self) -> [(&'static str, f64); 4] {
         let others = self.right_hand_side - self.contacts - self.cage;
         [

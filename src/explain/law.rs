@@ -1,4 +1,4 @@
-//! What the law of a scene's contacts implies at its own load.
+//! Meaning of the law of a scene's contacts at its own load.
 
 use std::fmt;
 
@@ -16,7 +16,7 @@ pub struct LawExplanation {
     pub law: NormalLaw,
     /// The most loaded contact, such as `row0.ball3.inner`.
     pub contact: String,
-    /// Its load \[N\].
+    /// Load of that contact \[N\].
     pub load: f64,
     /// How far ball and race approach under it \[m\].
     pub approach: f64,
@@ -26,7 +26,7 @@ pub struct LawExplanation {
     pub pressure: f64,
 }
 
-/// Of the scene at its start; absent where no contact is loaded.
+/// The explanation of the scene's law at its start; absent where no contact is loaded.
 pub(super) fn of(model: &Model, at_start: &Equilibrium) -> Option<LawExplanation> {
     let contacts = at_start.balls.iter().flat_map(|ball| {
         [

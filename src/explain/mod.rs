@@ -1,4 +1,4 @@
-//! What a scene is compiled to: what a run integrates and leaves out, what that costs, and what would make it cheaper.
+//! Explanation of what a scene is compiled to: what a run integrates and leaves out, what that costs, and what would make it cheaper.
 
 mod cost;
 mod law;
@@ -33,7 +33,7 @@ pub use pit::PitExplanation;
 pub use texture::TextureExplanation;
 pub use variants::Variant;
 
-/// What a run of a scene does.
+/// Explanation of a run of a scene.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Explanation {
@@ -45,9 +45,9 @@ pub struct Explanation {
     pub states: usize,
     /// States that a run integrates.
     pub kept: usize,
-    /// What is left out, and why that changes nothing.
+    /// Parts that are left out, and why that changes nothing.
     pub omissions: Vec<Omission>,
-    /// What cannot be left out, and why.
+    /// Parts that cannot be left out, and why.
     pub obstacles: Vec<Obstacle>,
     /// The contacts of every race.
     pub contacts: Vec<ContactKind>,
@@ -57,11 +57,11 @@ pub struct Explanation {
     pub constant: Vec<&'static str>,
     /// Forces that the scene does not have: no code runs for them.
     pub absent: Vec<&'static str>,
-    /// What a run costs, measured here and now.
+    /// Cost of a run, measured here and now.
     pub cost: Cost,
     /// Changes that would make it cheaper, the cheapest first; those of its oil also where they would not.
     pub variants: Vec<Variant>,
-    /// What the law of the contacts implies; absent where none is loaded.
+    /// Meaning of the contacts' law; absent where none is loaded.
     pub law: Option<LawExplanation>,
     /// The oils of the rows that have one.
     pub oils: Vec<OilExplanation>,
@@ -69,12 +69,12 @@ pub struct Explanation {
     pub textures: Vec<TextureExplanation>,
     /// The pits that a loaded contact meets.
     pub pits: Vec<PitExplanation>,
-    /// What is unusual about the scene, about the pressure in its contacts and about its films.
+    /// Doubts about the scene, about the pressure in its contacts and about its films.
     pub doubts: Vec<Doubt>,
-    /// Where defects are placed, and what contacts carry there at the healthy bearing's equilibrium: over a turn of
+    /// Places of defects, and what contacts carry there at the healthy bearing's equilibrium: over a turn of
     /// the inner race or the ball past all balls; of one on the outer race with a ball at its angle.
     pub defects: Vec<Touched>,
-    /// What to know of the scene before believing a long run.
+    /// Notes on the scene to read before believing a long run.
     pub notes: Vec<String>,
 }
 
@@ -82,11 +82,11 @@ pub struct Explanation {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct ContactKind {
-    /// Such as `row 0, outer race`.
+    /// Name of the race, such as `row 0, outer race`.
     pub race: String,
     /// Number of balls.
     pub contacts: usize,
-    /// What a contact is: `closed form`, `6 nodes`, `3 of 6 nodes (mirror symmetry)`, `50 slices`, `image of row 0`.
+    /// Evaluation of a contact: `closed form`, `6 nodes`, `3 of 6 nodes (mirror symmetry)`, `50 slices`, `image of row 0`.
     pub evaluation: String,
 }
 
@@ -161,7 +161,7 @@ fn listed<T: Clone>(reduction: Option<&Reduction>, list: fn(&Reduction) -> &[T])
     reduction.map_or_else(Vec::new, |reduction| list(reduction).to_vec())
 }
 
-/// Where the defects of a scene lie, and whether contacts at equilibrium meet them.
+/// Places of the defects of a scene, and whether contacts at equilibrium meet them.
 fn defects(scene: &Scene, placed: &BTreeMap<String, Placed>) -> Result<Vec<Touched>> {
     let defects = scene.defects.iter().filter(|(_, defect)| is_there(defect));
     defects
@@ -310,7 +310,7 @@ impl fmt::Display for Explanation {
     }
 }
 
-/// Where a defect lies, why there, and whether contacts meet it.
+/// Place of a defect in words, why it lies there, and whether contacts meet it.
 fn in_words(defect: &Touched) -> String {
     let Touched { name, .. } = defect;
     let place = 1e3 * defect.axial_offset;

@@ -1,4 +1,4 @@
-//! What the oil of a scene is, and what its films are.
+//! Oil of a scene, and its films.
 
 use std::f64::consts::TAU;
 use std::fmt;
@@ -26,15 +26,15 @@ pub struct OilExplanation {
     pub temperature: f64,
     /// Kinematic viscosity there \[m²/s\].
     pub kinematic_viscosity: f64,
-    /// Where the films' reference load comes from: `given` or `equilibrium`.
+    /// Origin of the films' reference load: `given` or `equilibrium`.
     pub load_from: &'static str,
-    /// Where their reference speed comes from: `given` or `drive`.
+    /// Origin of the films' reference speed: `given` or `drive`.
     pub speed_from: &'static str,
     /// The films on the outer and on the inner race.
     pub films: Vec<RaceFilm>,
 }
 
-/// Of all rows whose oil does something.
+/// The explanations of all rows whose oil does something.
 pub(super) fn of(model: &Model) -> Result<Vec<OilExplanation>> {
     let (scene, films) = (model.scene(), films(model));
     let mut found = Vec::new();

@@ -1,4 +1,4 @@
-//! What pits and dents take of the most loaded contacts that meet them.
+//! Loads that pits and dents take of the most loaded contacts that meet them.
 
 use std::fmt;
 
@@ -18,15 +18,15 @@ pub struct PitExplanation {
     pub name: String,
     /// `pit` or `dent`.
     pub shape: &'static str,
-    /// Which surface.
+    /// Surface on which the pit lies.
     pub on: Surface,
-    /// Along rolling and across the race \[m\].
+    /// Sizes along rolling and across the race \[m\].
     pub size: [f64; 2],
     /// Load of the contact \[N\].
     pub load: f64,
-    /// Its width along rolling and its length across, 2b and 2a of Hertz's ellipse \[m\].
+    /// Width of the contact along rolling and its length across, 2b and 2a of Hertz's ellipse \[m\].
     pub contact: [f64; 2],
-    /// What it takes of the load at its middle, at one and the same approach \[N\]; below 0 where a rim adds more.
+    /// Load that the pit takes at its middle, at one and the same approach \[N\]; below 0 where a rim adds more.
     pub lost: f64,
     /// How much less race would take as much \[m\].
     pub depth: f64,
@@ -36,7 +36,7 @@ pub struct PitExplanation {
     pub duration: f64,
 }
 
-/// Of all pits that a loaded contact meets.
+/// The explanations of all pits that a loaded contact meets.
 pub(super) fn of(scene: &Scene) -> Result<Vec<PitExplanation>> {
     let mut explanations = Vec::new();
     for (name, defect) in scene

@@ -9,7 +9,7 @@ const MOMENT: f64 = 0.01;
 /// Contact angle from which pivoting is reported \[rad\]: 3°.
 const ANGLE: f64 = 0.05;
 
-/// Of a model and its start; `reduced` says whether turning is left out of the run.
+/// Notes on a model and its start; `reduced` says whether turning is left out of the run.
 pub(super) fn notes(model: &Model, y0: &[f64], reduced: bool) -> Vec<String> {
     let mut found = Vec::new();
     if model.tilts() && !reduced {

@@ -1,4 +1,4 @@
-//! What the texture of a row is, and what its contacts leave of it.
+//! Texture of a row, and what its contacts leave of it.
 
 use std::fmt;
 
@@ -18,7 +18,7 @@ const ROUGH: u32 = 15;
 pub struct TextureExplanation {
     /// Row, from 0.
     pub row: usize,
-    /// Such as `outer race`.
+    /// Name of the surface, such as `outer race`.
     pub surface: String,
     /// Amplitude at order 30 \[m\].
     pub amplitude: f64,
@@ -34,13 +34,13 @@ pub struct TextureExplanation {
     pub fine_roughness: f64,
     /// Length of waves of which a contact leaves nothing: its width \[m\].
     pub shortest: f64,
-    /// Frequency of these where balls roll at the drive's largest speed \[Hz\].
+    /// Frequency of the waves where balls roll at the drive's largest speed \[Hz\].
     pub frequency: f64,
     /// Largest step that sees them \[s\].
     pub largest_step: f64,
 }
 
-/// Of all rows that have one.
+/// The explanations of all rows that have a texture.
 pub(super) fn of(model: &Model) -> Vec<TextureExplanation> {
     let rows = model.scene().rows.iter().enumerate();
     let textured = rows.filter_map(|(i, row)| Some((i, row.texture.as_ref()?)));

@@ -1,4 +1,4 @@
-//! What a scene would cost with something taken away or simplified.
+//! Cost of a scene with something taken away or simplified.
 
 use serde::Serialize;
 
@@ -13,9 +13,9 @@ use crate::statics::start::{Start, start};
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Variant {
-    /// What is changed.
+    /// Change of the scene.
     pub change: String,
-    /// What that does to the answer, where it is known.
+    /// Note on what the change does to the answer, where it is known.
     pub note: String,
     /// States that a run would integrate.
     pub kept: usize,
@@ -140,7 +140,7 @@ const CHANGES: [(&str, &str, Change); 13] = [
     ),
 ];
 
-/// All that help or are of the oil, the cheapest first. Each is started and timed as the scene itself was.
+/// The variants that help or are of the oil, the cheapest first. Each is started and timed as the scene itself was.
 pub(super) fn of(model: &Model, y0: &[f64], cost: &Cost) -> Vec<Variant> {
     let mut variants: Vec<Variant> = offers(model, y0)
         .into_iter()

@@ -34,7 +34,7 @@ pub(super) struct Batches {
 }
 
 impl Batches {
-    /// Of so many samples that last for so many turns, or so many passes.
+    /// The batches of so many samples that last for so many turns, or so many passes.
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
     pub fn new(count: usize, [turns, passes]: [f64; 2]) -> Self {
         let found = [turns, passes].into_iter().find(|units| *units >= LEAST);
@@ -55,7 +55,7 @@ impl Batches {
         }
     }
 
-    /// Of a record that has no statistics of its own.
+    /// The batches of a record that has no statistics of its own.
     pub fn none() -> Self {
         Self {
             ranges: Vec::new(),
@@ -63,12 +63,12 @@ impl Batches {
         }
     }
 
-    /// How many there are.
+    /// Number of batches.
     pub fn count(&self) -> usize {
         self.ranges.len()
     }
 
-    /// What a function gives of each; nothing without batches.
+    /// Values of a function of each batch; nothing without batches.
     pub fn map<T>(&self, of: impl Fn(Range<usize>) -> T) -> Option<Vec<T>> {
         let all = || self.ranges.iter().cloned().map(of).collect();
         (!self.ranges.is_empty()).then(all)

@@ -20,7 +20,7 @@ const HARMONICS: u8 = 3;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct FaultOrder {
     pub name: &'static str,
-    /// In turns of the shaft against the outer ring.
+    /// Order of the fault in turns of the shaft against the outer ring.
     pub order: f64,
     /// How far from there its line is sought, as a share of it.
     share: f64,
@@ -99,14 +99,14 @@ pub(super) fn of(
     found
 }
 
-/// What stands in a spectrum at a fault's frequency.
+/// Lines of a spectrum at a fault's frequency.
 struct Lines {
     line: f64,
     /// Root of the sum of the squares of the line and its harmonics.
     harmonics: f64,
     /// The same of the two sidebands.
     sidebands: f64,
-    /// Their standard errors.
+    /// Standard errors of the lines.
     errors: [f64; 3],
 }
 
@@ -126,7 +126,7 @@ fn together(lines: &[Amplitude]) -> Amplitude {
 }
 
 impl Lines {
-    /// In a spectrum over units in which the shaft has a frequency and a record has a bin. Absent where the record is too
+    /// The lines in a spectrum over units in which the shaft has a frequency and a record has a bin. Absent where the record is too
     /// short for the line, or sampled too slowly.
     fn of(fault: &FaultOrder, spectrum: &Spectrum, shaft: f64, bin: f64) -> Option<Self> {
         let near = fault.order * shaft;

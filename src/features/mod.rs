@@ -47,7 +47,7 @@ pub(crate) use loads::{with_load_probes, without_load_probes};
 pub use record::Recorded;
 pub use recorded::{check_recorded, features_of, signal_features};
 
-/// What to compute the features of.
+/// Options of features: what to compute them of.
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct FeatureOptions {

@@ -97,7 +97,7 @@ impl MomentSums {
         (second + 2.0 * mean * first + mean * mean).sqrt()
     }
 
-    /// About a mean of its own.
+    /// Kurtosis about a mean of its own.
     fn kurtosis(&self) -> f64 {
         let [m, second, third, fourth] = self.sums.map(|sum| sum / self.count);
         let variance = second - m * m;
@@ -195,7 +195,7 @@ mod tests {
         }
     }
 
-    /// What repeats turn by turn has no error; without batches there are no errors, nor for a signal of zeros.
+    /// Errors are absent of what repeats turn by turn; without batches there are no errors, nor for a signal of zeros.
     #[test]
     fn errors_of_what_repeats_and_of_nothing() {
         let sine: Vec<f64> = (0..1600)

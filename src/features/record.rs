@@ -6,7 +6,7 @@ use crate::signals::kinematics::RowKinematics;
 
 /// Columns of a run, by their names, all of the same length.
 pub struct Recorded<'a> {
-    /// What was run.
+    /// The scene that was run.
     pub scene: &'a Scene,
     /// Sampling rate \[Hz\].
     pub fs: f64,

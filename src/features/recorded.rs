@@ -100,7 +100,7 @@ fn first_sample(skip: f64, fs: f64, count: usize) -> usize {
     counted.unwrap_or(count)
 }
 
-/// What the features of all columns of a record share.
+/// Analysis that the features of all columns of a record share.
 struct Analysis<'a> {
     scene: Option<&'a Scene>,
     kinematics: &'a [RowKinematics],
@@ -116,7 +116,7 @@ struct Analysis<'a> {
 }
 
 impl<'a> Analysis<'a> {
-    /// Of so many samples of a bearing, and of what its rows did.
+    /// The analysis of so many samples of a bearing, and of what its rows did.
     fn new(
         bearing: Option<(&'a Scene, &'a [RowKinematics])>,
         fs: f64,

@@ -23,13 +23,13 @@ pub(super) struct RingTurns {
 }
 
 impl RingTurns {
-    /// Where the outer ring stands.
+    /// The shaft where the outer ring stands.
     pub const INNER: Self = Self {
         outer: None,
         inner: 1.0,
     };
 
-    /// Over so many samples from a time on.
+    /// The shaft over so many samples from a time on.
     pub fn of(scene: &Scene, from: f64, count: usize, fs: f64) -> Self {
         if scene.outer_speed.is_none() {
             return Self::INNER;
@@ -47,7 +47,7 @@ impl RingTurns {
     }
 }
 
-/// What a spectrum is taken over.
+/// Abscissa over which a spectrum is taken.
 pub(super) enum Shaft {
     /// Time: the speed changes by less than the width in which a line is sought; its frequency \[Hz\].
     Steady(f64),
@@ -61,7 +61,7 @@ pub(super) enum Shaft {
 }
 
 impl Shaft {
-    /// Over so many samples from a time on. Absent where the speed is not given, or the shaft stands still or turns back.
+    /// The shaft over so many samples from a time on. Absent where the speed is not given, or the shaft stands still or turns back.
     /// Of a run from rest, or to it, over the longest part in which it has a twentieth of its highest speed.
     pub fn of(scene: &Scene, from: f64, count: usize, fs: f64) -> Option<Self> {
         scene.given_speed(RingName::Inner)?;
@@ -120,7 +120,7 @@ impl Shaft {
         matches!(self, Self::Steady(_))
     }
 
-    /// Its frequency over the spectrum's abscissa: in Hz, or once a turn.
+    /// Frequency of the shaft over the spectrum's abscissa: in Hz, or once a turn.
     pub fn frequency(&self) -> f64 {
         match self {
             Self::Steady(frequency) => *frequency,
@@ -149,7 +149,7 @@ impl Shaft {
     }
 }
 
-/// At a share of the way from one sample to the next, on the cubic through them with the slopes of their neighbours' chords.
+/// Value at a share of the way from one sample to the next, on the cubic through them with the slopes of their neighbours' chords.
 fn cubic(x: &[f64], before: usize, share: f64) -> f64 {
     let at = |i: usize| x[i.min(x.len() - 1)];
     let (a, b) = (at(before), at(before + 1));

@@ -22,7 +22,7 @@ impl Spectrum {
         }
     }
 
-    /// Its highest frequency \[Hz\].
+    /// Highest frequency of the spectrum \[Hz\].
     pub fn top(&self) -> f64 {
         (self.amplitudes.len() - 1) as f64 * self.spacing
     }
@@ -58,7 +58,7 @@ impl Spectrum {
         Some((middle / std::f64::consts::LN_2 / 2.0).sqrt())
     }
 
-    /// On the parabola through the nearest entry and its neighbours.
+    /// Value at a frequency, on the parabola through the nearest entry and its neighbours.
     fn at(&self, f: f64) -> f64 {
         let place = f / self.spacing;
         let i = index(place.round()).max(1);

@@ -11,7 +11,7 @@ use crate::model::{Model, Race};
 pub struct ContactSummary {
     /// Magnitude of the normal force, elastic and damping \[N\].
     pub load: f64,
-    /// Its angle against the radial plane, positive in the sense of the nominal contact angle \[rad\]; NaN without load.
+    /// Angle of the contact against the radial plane, positive in the sense of the nominal contact angle \[rad\]; NaN without load.
     pub angle: f64,
     /// Axial place of the zone's middle of force, in the ring's frame \[m\]; NaN without load.
     pub zone_centre: f64,
@@ -37,7 +37,7 @@ pub struct SliceForce {
     pub force: f64,
 }
 
-/// What the forces of a contact add up to.
+/// Sums of the forces of a contact.
 #[derive(Default)]
 pub(super) struct Summary {
     plane: V2,
@@ -90,7 +90,7 @@ pub fn contact(model: &Model, y: &[f64], j: usize, race: Race) -> ContactSummary
 }
 
 impl Summary {
-    /// In a few numbers, on a race of a row whose nominal contact angle has this sense.
+    /// The sums in a few numbers, on a race of a row whose nominal contact angle has this sense.
     pub(super) fn contact_summary(&self, race: Race, side: f64) -> ContactSummary {
         if self.weight == 0.0 {
             return ContactSummary {
@@ -153,7 +153,7 @@ pub(crate) fn pressure(model: &Model, y: &[f64], (j, race): (usize, Race), load:
     row.hertz[race].pressure(heaviest)
 }
 
-/// What the flank of a gothic arch that comes first bears, and the other.
+/// Loads of the flank of a gothic arch that comes first, and of the other.
 struct Flanks<'a> {
     pair: &'a Pair,
     sums: [Summary; 2],

@@ -11,7 +11,7 @@ use crate::model::{Dof, Model, Race};
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Energy {
-    /// Of all bodies that move.
+    /// Kinetic energy of all bodies that move.
     pub kinetic: f64,
     /// Stored in contacts.
     pub contact: f64,
@@ -19,7 +19,7 @@ pub struct Energy {
     pub support: f64,
     /// Stored in the cage.
     pub cage: f64,
-    /// In the field of gravity, 0 at the origin.
+    /// Energy in the field of gravity, 0 at the origin.
     pub gravity: f64,
     /// Power lost to contact damping, of steel and oil.
     pub damping_power: f64,
@@ -32,7 +32,7 @@ pub struct Energy {
 }
 
 impl Energy {
-    /// All stored and kinetic energy \[J\].
+    /// Sum of stored and kinetic energy \[J\].
     pub fn total(&self) -> f64 {
         self.kinetic + self.contact + self.support + self.cage + self.gravity
     }
@@ -119,7 +119,7 @@ pub fn energy(model: &Model, y: &[f64]) -> Energy {
     energy
 }
 
-/// What the rotations of rings that tilt have beside those about z \[J\].
+/// Energy of the rotations of rings that tilt beside those about z \[J\].
 fn of_tilt(model: &Model, y: &[f64]) -> f64 {
     let of = |race: Race| {
         let inertia = &model.rings[race].inertia;

@@ -31,7 +31,7 @@ pub struct RaceFilm {
     pub ellipticity: f64,
     /// Moes' L.
     pub moes: f64,
-    /// Whether it damps.
+    /// Whether the film damps.
     #[serde(skip)]
     damps: bool,
     /// Largest Hertz pressure under the reference load \[Pa\].
@@ -78,7 +78,7 @@ fn film(model: &Model, (row, race): (usize, Race)) -> Option<RaceFilm> {
     })
 }
 
-/// What is doubtful in contacts of a largest Hertz pressure \[Pa\] and in their films. A pressure that no steel bears is not
+/// Doubts about contacts of a largest Hertz pressure \[Pa\] and about their films. A pressure that no steel bears is not
 /// reported once more as one outside the range of the formulas of films.
 pub(crate) fn doubts(largest_pressure: f64, films: &[RaceFilm]) -> Vec<Doubt> {
     let mut found: Vec<Doubt> = Doubt::pressure(largest_pressure).into_iter().collect();

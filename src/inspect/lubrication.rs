@@ -59,11 +59,11 @@ impl Lubrication {
     }
 }
 
-/// What a row's contacts do to a ring, and what they lose.
+/// Moment of a row's contacts on a ring, and power that they lose.
 #[derive(Default)]
 struct Resistance {
     on_ball: WrenchSum,
-    /// On the ring about its axis, of contacts before this \[N m\].
+    /// Moment on the ring about its axis, of contacts before this \[N m\].
     moment: f64,
     powers: ContactPowers,
 }
@@ -113,7 +113,7 @@ fn film(model: &Model, (row, race): (usize, Race), speed: f64) -> Option<FilmNow
     Some(film.at(speed / film.reference().speed))
 }
 
-/// What all balls of a row do to a ring.
+/// Resistance of all balls of a row on a ring.
 fn resistance(model: &Model, y: &[f64], (row, race): (usize, Race)) -> Resistance {
     let row = &model.rows[row];
     let mut sum = Resistance::default();

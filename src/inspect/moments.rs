@@ -28,7 +28,7 @@ pub fn moments(model: &Model, t: f64, y: &[f64]) -> [[f64; 2]; 2] {
     })
 }
 
-/// What the balls put on a ring in a state of all bodies: force along x, y and z \[N\], moment about the ring's centre of mass \[N m\].
+/// Wrench of the balls on a ring in a state of all bodies: force along x, y and z \[N\], moment about the ring's centre of mass \[N m\].
 pub fn wrench(model: &Model, y: &[f64], race: Race) -> [f64; 6] {
     let mut sum = MomentOnRing::new(model, y, race);
     let mut force = Vector3::zeros();
@@ -43,7 +43,7 @@ pub fn wrench(model: &Model, y: &[f64], race: Race) -> [f64; 6] {
     [x, y, z, about_x, about_y, about_z]
 }
 
-/// What a contact does to ball `j` and to its ring, wherever both are and however they move, in the scene's frame: on the ball about
+/// Wrenches of a contact on ball `j` and on its ring, wherever both are and however they move, in the scene's frame: on the ball about
 /// its centre, on the ring about its centre of mass.
 pub(crate) fn between(
     model: &Model,
@@ -69,7 +69,7 @@ pub(crate) struct MomentOnRing<'m> {
 }
 
 impl<'m> MomentOnRing<'m> {
-    /// Without any ball yet.
+    /// The sum without any ball yet.
     pub fn new(model: &'m Model, y: &[f64], race: Race) -> Self {
         Self {
             model,
@@ -94,7 +94,7 @@ impl<'m> MomentOnRing<'m> {
         both.summary.contact_summary(self.race, side)
     }
 
-    /// With the loads at a time \[s\], about x and y and across the ring's axis \[N m\].
+    /// The moments with the loads at a time \[s\], about x and y and across the ring's axis \[N m\].
     pub fn with_loads(&self, t: f64) -> [f64; 2] {
         let frame = &self.ring.rotation.frame;
         let loads = load::moment(self.model, t, self.race, |arm| frame.to_scene(arm));

@@ -5,11 +5,11 @@ use crate::contact::{OilTouch, Touch};
 /// Powers that contacts take out \[W\].
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct ContactPowers {
-    /// By slip.
+    /// Power lost by slip.
     pub slip: f64,
-    /// By damping, of steel and film.
+    /// Power lost by damping, of steel and film.
     pub damping: f64,
-    /// By rolling resistance, of film and steel.
+    /// Power lost by rolling resistance, of film and steel.
     pub rolling: f64,
 }
 

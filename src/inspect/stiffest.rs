@@ -14,7 +14,7 @@ pub(crate) struct StiffElement {
     pub name: String,
     /// A body it acts on.
     pub body: BodyId,
-    /// What it does, in numbers.
+    /// State of the element, in numbers.
     state: String,
     /// Rate at which its friction and damping change the motion of what it acts on \[1/s\].
     rate: f64,

@@ -35,11 +35,11 @@ use crate::simd::{Simd, Vector};
 pub struct Adams;
 
 impl Adams {
-    /// What it is called.
+    /// Name of the method.
     pub(crate) const NAME: &'static str = "Adams predictor-corrector";
 }
 
-/// What the driver asks for; the coefficients of a step follow from the lengths of the last ones.
+/// Coefficients that the driver asks for; those of a step follow from the lengths of the last ones.
 const TABLEAU: Tableau = Tableau {
     name: Adams::NAME,
     order: 4,

@@ -98,7 +98,7 @@ fn extrapolate<S: Simd>(weights: KnownWeights, of: [Vector<S>; 3]) -> Vector<S> 
     first.mul_add(first.same(a), second.mul_add(first.same(b), third * c))
 }
 
-/// From predicted accelerations and velocities: what Adams' formula adds γh times the new acceleration to, and by how much the predicted
+/// Predictions from accelerations and velocities: what Adams' formula adds γh times the new acceleration to, and by how much the predicted
 /// velocity differs from the extrapolated one.
 struct Fast {
     gamma_h: f64,

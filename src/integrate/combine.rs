@@ -139,13 +139,13 @@ impl<K: AsRef<[f64]>> FusedPass<'_, K> {
     }
 }
 
-/// What numbers of several vectors become at each place.
+/// Operation on the numbers of several vectors at each place.
 pub(super) trait Each<const IN: usize, const OUT: usize> {
-    /// From what stands there and further numbers, what is to stand there. Wants `#[inline(always)]`.
+    /// The new number at a place, from what stands there and further numbers. Wants `#[inline(always)]`.
     fn of<S: Simd>(&self, there: [Vector<S>; OUT], from: [Vector<S>; IN]) -> [Vector<S>; OUT];
 }
 
-/// Does it at every place of vectors as long as the first.
+/// Applies an operation at every place of vectors as long as the first.
 ///
 /// # Panics
 /// With vectors shorter than that.

@@ -8,12 +8,12 @@ use super::multistep;
 /// Stages a step can have at most; bounds the weights kept on the stack.
 pub(super) const MAX_STAGES: usize = 16;
 
-/// What a step's derivatives weigh within it.
+/// Weights of a step's derivatives within it.
 #[derive(Clone, Copy)]
 pub(super) enum Weights<'a> {
     /// A Runge–Kutta method's: of every derivative in every state.
     OfDerivatives(&'a [[f64; 4]]),
-    /// Of every acceleration in velocities, and integrated once more in positions.
+    /// Weights of every acceleration in velocities, and integrated once more in positions.
     OfAccelerations(&'a multistep::AdamsWeights),
 }
 

@@ -19,7 +19,7 @@ use crate::base::words::{Remembered, Words};
 /// A step below this many ulps of the time is too small.
 const SMALLEST_ULPS: f64 = 16.0;
 
-/// Where an integration ended.
+/// The end of an integration.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Solution {
@@ -27,7 +27,7 @@ pub struct Solution {
     pub t: f64,
     /// The state at that time.
     pub y: Vec<f64>,
-    /// What it has cost.
+    /// Effort and events of the integration.
     pub stats: StepStatistics,
     /// Whether the observer ended it.
     pub interrupted: bool,
@@ -95,12 +95,12 @@ struct Accepted {
     h: f64,
     /// The clock at its end.
     end: Clock,
-    /// Whether it ends on a stop.
+    /// Whether the step ends on a stop.
     lands: bool,
 }
 
 impl<'a> Integrator<'a> {
-    /// Before the first step.
+    /// The integration before its first step.
     ///
     /// # Errors
     /// As [`integrate`], of the start.
@@ -127,7 +127,7 @@ impl<'a> Integrator<'a> {
         Ok(made)
     }
 
-    /// Where another integration of the same task stands, which has remembered this.
+    /// The integration at the place of another one of the same task, which has remembered this.
     ///
     /// # Errors
     /// [`FailureKind::Invalid`] where it was another task.
@@ -213,7 +213,7 @@ impl<'a> Integrator<'a> {
         }
     }
 
-    /// What it has come to.
+    /// The solution so far.
     pub fn solution(self, interrupted: bool) -> Solution {
         let (t, y) = match self.accepted {
             Some(accepted) => (accepted.end.now(), self.work.y1),
@@ -342,7 +342,7 @@ impl Remembered for Accepted {
     }
 }
 
-/// What is remembered is of another task than the one that begins at a time.
+/// The failure of a memory that is of another task than the one that begins at a time.
 pub(crate) fn other_task(begins: f64) -> Failure {
     Failure::invalid(
         begins,

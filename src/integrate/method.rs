@@ -1,4 +1,4 @@
-//! What the driver asks of a method.
+//! Interface of a method: what the driver asks of it.
 
 use super::System;
 use super::control::Controller;
@@ -25,7 +25,7 @@ pub trait StepMethod<S>: Sealed {
         Controller::for_order(self.tableau().error_order)
     }
 
-    /// Whether it builds on the steps behind.
+    /// Whether the method builds on the steps behind.
     fn is_multistep(&self) -> bool {
         false
     }

@@ -12,7 +12,7 @@ pub(super) const NEW: usize = NODES - 1;
 /// Weights of accelerations in a velocity, as polynomials in the share θ of the step: d₀θ + d₁θ² + d₂θ³ + d₃θ⁴.
 pub(super) type AdamsWeights = [[f64; NODES]; NODES];
 
-/// What the accelerations weigh that are known at the beginning of a step.
+/// Weights of the accelerations that are known at the beginning of a step.
 pub(super) type KnownWeights = [f64; NODES - 1];
 
 /// The steps behind, as far as they are known.
@@ -62,7 +62,7 @@ impl History {
         }
     }
 
-    /// For an attempt of a length, of a system whose velocities decay at some rate and whose oscillations allow steps up to a longest one: the
+    /// Prepares an attempt of a length, of a system whose velocities decay at some rate and whose oscillations allow steps up to a longest one: the
     /// formulae of the last attempt serve where its times are the same.
     pub(super) fn attempt(&mut self, h: f64, relaxation: f64, longest: f64) {
         self.h = h;
@@ -141,20 +141,20 @@ impl Remembered for History {
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Formulae {
     known: usize,
-    /// Of the accelerations, that at the end of the step first.
+    /// Times of the accelerations, that at the end of the step first.
     times: [f64; NODES],
-    /// Of the known accelerations in the predicted position, velocity and acceleration.
+    /// Weights of the known accelerations in the predicted position, velocity and acceleration.
     pub predicted: [KnownWeights; 3],
     /// γ, of the new acceleration in the velocity.
     pub gamma: f64,
     /// Correction of the position over that of the velocity, and the errors of both over it.
     pub reach: f64,
     pub errors: [f64; 2],
-    /// Of the velocities at those times in h times the acceleration at the end of the step: backward differences.
+    /// Weights of the velocities at those times in h times the acceleration at the end of the step: backward differences.
     pub backward: [f64; NODES],
     /// c, for which 1 − (γ + c²b) hJ + c²h²J² = (1 − chJ)², with b the first of these.
     pub blend: f64,
-    /// Of all accelerations within the step, in the order of the derivatives: the new one last.
+    /// Weights of all accelerations within the step, in the order of the derivatives: the new one last.
     pub weights: AdamsWeights,
 }
 
@@ -225,7 +225,7 @@ pub(super) fn integrals(times: &[f64]) -> AdamsWeights {
     all
 }
 
-/// At a share θ of the step: what accelerations weigh in the velocity, over h, and in the position, over h².
+/// Weights of accelerations at a share θ of the step: in the velocity, over h, and in the position, over h².
 pub(super) fn at(theta: f64, weights: &AdamsWeights) -> ([f64; NODES], [f64; NODES]) {
     let velocity = weights.map(|d| theta * (d[0] + theta * (d[1] + theta * (d[2] + theta * d[3]))));
     let position = weights.map(|d| {

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::failure::Invalid;
 use crate::simd::{InstructionSet, Simd, Vector, Wide};
 
-/// What error is acceptable in each state, and which states belong together.
+/// Tolerance of each state: which error is acceptable, and which states belong together.
 ///
 /// The scale of state `i` is `atol[i]`, plus `rtol · max(|y0|, |y1|)` if the
 /// state is relative. The norm is the largest, over the groups, of the group's
@@ -17,7 +17,7 @@ pub struct Tolerance {
     /// Relative tolerance by state; 0 where only the absolute one counts.
     rtol: Vec<f64>,
     group: Vec<usize>,
-    /// One over the number of states of each group; 0 for an empty one.
+    /// Inverse of the number of states of each group; 0 for an empty one.
     share: Vec<f64>,
 }
 
@@ -173,7 +173,7 @@ impl<'a> Norm<'a> {
         }
     }
 
-    /// One over the scale of each state, as of the last measurement.
+    /// Inverse of the scale of each state, as of the last measurement.
     pub(super) fn weights(&self) -> &[f64] {
         &self.weight
     }

@@ -1,4 +1,4 @@
-//! What the caller may choose.
+//! Options that the caller may choose.
 
 use super::control::Controller;
 use super::failure::Invalid;

@@ -10,7 +10,7 @@ use crate::base::words::{Remembered, Words};
 /// Dormand–Prince, as in Hairer's program.
 const STIFF_SHARE: f64 = 3.25 / 3.3066;
 
-/// What an integration has cost and met so far.
+/// Effort of an integration so far, and what it has met.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct StepStatistics {

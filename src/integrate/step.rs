@@ -1,4 +1,4 @@
-//! One step of any tableau, in memory allocated once.
+//! A step of any tableau, in memory allocated once.
 
 use super::System;
 use super::combine::combine;

@@ -58,7 +58,7 @@ impl Task for Distance<'_> {
 mod tests {
     use super::*;
 
-    /// With `k = λy` the quotient is `h|λ|`, whatever the states and weights.
+    /// The quotient is `h|λ|` with `k = λy`, whatever the states and weights.
     #[test]
     fn finds_the_eigenvalue_of_a_linear_system() {
         let y0: Vec<f64> = (0..11).map(|i| f64::from(i).sin()).collect();

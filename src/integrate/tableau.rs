@@ -32,7 +32,7 @@ pub struct Tableau {
     /// Dense output, one row a derivative (`stages`, one more without FSAL): `y(t0 + θh) = y0 + h Σ bᵢ(θ) kᵢ` with
     /// `bᵢ(θ) = d₀θ + d₁θ² + d₂θ³ + d₃θ⁴`.
     pub dense: &'static [[f64; 4]],
-    /// Where the region of absolute stability ends on the negative real axis,
+    /// End of the region of absolute stability on the negative real axis,
     /// as a positive number. A stiffness quotient near it means that stability,
     /// not accuracy, holds the step. The quotient compares the last two states
     /// evaluated and is meaningful where both stand at the end of the step.
@@ -189,7 +189,7 @@ mod tests {
         assert!((x - y).abs() < 1e-13, "{what}: {x} is not {y}");
     }
 
-    /// What rounding of the coefficients may do to an order condition: those of Verner's pair reach 200.
+    /// Error of an order condition by rounding of the coefficients: those of Verner's pair reach 200.
     fn rounding(t: &Tableau) -> f64 {
         let largest = |row: &[f64]| row.iter().fold(1.0, |most: f64, x| most.max(x.abs()));
         let coefficients = t.a.iter().map(|row| largest(row)).fold(1.0, f64::max);

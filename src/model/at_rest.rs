@@ -1,4 +1,4 @@
-//! What a model needs to know of the bearing at rest: the compiler of scenes asks, statics answer.
+//! The bearing at rest, as a model needs it: the compiler of scenes asks, statics answer.
 
 use super::{Model, Race, ball_defect, race_defect};
 use crate::base::error::Result;
@@ -32,7 +32,7 @@ pub(crate) struct HeaviestContact {
     /// Load \[N\].
     pub load: f64,
     pub race: Race,
-    /// Where it runs, from the row's plane or the ball's centre \[m\].
+    /// Place at which the contact runs, from the row's plane or the ball's centre \[m\].
     pub place: f64,
 }
 
@@ -48,7 +48,7 @@ impl HeaviestContact {
         self.beneath(defect).outgrows(race, hertz, self.load)
     }
 
-    /// What a defect that is smaller than it takes of its load \[N\], and which share of its energy it releases.
+    /// Load \[N\] that a defect smaller than the contact takes of it, and the share of its energy that it releases.
     pub fn loses(&self, defect: &Defect) -> Option<(f64, f64)> {
         let (race, hertz) = self.met(defect.row);
         self.beneath(defect).takes(race, hertz, self.load)

@@ -9,7 +9,7 @@ use crate::scene::{Mount, Ring, Row, Scene};
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Body {
-    /// Its name, as in the names of the states.
+    /// Name of the body, as in the names of the states.
     pub name: String,
     /// Mass along x, y, z \[kg\] and moment of inertia about z \[kg m²\].
     pub mass: [f64; DOFS],
@@ -28,7 +28,7 @@ impl Body {
             .any(|dof| self.degrees[*dof].is_free())
     }
 
-    /// One over the mass where a direction is free, 0 where it is not.
+    /// Inverse of the mass where a direction is free, 0 where it is not.
     pub(super) fn mobility(&self) -> [f64; DOFS] {
         std::array::from_fn(|i| match self.degrees[i] {
             Degree::Free { .. } => 1.0 / self.mass[i],
@@ -41,16 +41,16 @@ impl Body {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Degree {
-    /// By the forces on it, with a spring and a damper to the frame (both 0 when free).
+    /// A direction that moves by the forces on it, with a spring and a damper to the frame (both 0 when free).
     Free {
         /// \[N/m\], about z \[N m/rad\].
         stiffness: f64,
         /// \[N s/m\], about z \[N m s/rad\].
         damping: f64,
     },
-    /// Not at all.
+    /// A direction that does not move.
     Fixed,
-    /// As a given motion prescribes, about z a given speed.
+    /// A direction that moves as a given motion prescribes, about z a given speed.
     Driven,
 }
 
@@ -60,7 +60,7 @@ impl Degree {
         matches!(self, Self::Free { .. })
     }
 
-    /// Of the spring to the frame \[N/m\], about z \[N m/rad\]; 0 where nothing moves by forces.
+    /// Stiffness of the spring to the frame \[N/m\], about z \[N m/rad\]; 0 where nothing moves by forces.
     pub(crate) fn stiffness(&self) -> f64 {
         match self {
             Self::Free { stiffness, .. } => *stiffness,

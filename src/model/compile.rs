@@ -1,4 +1,4 @@
-//! From the scene's names and numbers to the model's arrays.
+//! Compilation of the scene's names and numbers to the model's arrays.
 
 use std::f64::consts::PI;
 

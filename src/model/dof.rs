@@ -9,47 +9,47 @@ pub const DOFS: usize = 4;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
 pub enum Dof {
-    /// Along x \[m\].
+    /// Place along x \[m\].
     X,
-    /// Along y \[m\].
+    /// Place along y \[m\].
     Y,
-    /// Along the bearing's axis \[m\].
+    /// Place along the bearing's axis \[m\].
     Z,
-    /// About the bearing's axis \[rad\].
+    /// Angle about the bearing's axis \[rad\].
     Theta,
-    /// Of a ring, its tilt about x \[rad\].
+    /// Tilt of a ring about x \[rad\].
     TiltX,
-    /// Of a ring, its tilt about y \[rad\].
+    /// Tilt of a ring about y \[rad\].
     TiltY,
-    /// Of a ball that spins freely, its angular velocity about x, which adds up to a place \[rad\] that nothing reads.
+    /// Angular velocity about x of a ball that spins freely, which adds up to a place \[rad\] that nothing reads.
     TurnX,
-    /// Of a ball that spins freely, the same about y.
+    /// Angular velocity about y of a ball that spins freely, likewise.
     TurnY,
-    /// Of a ball that spins freely and has a cap, the first of its four Euler parameters.
+    /// First of the four Euler parameters of a ball that spins freely and has a cap.
     E0,
-    /// The second of these.
+    /// Second of the Euler parameters.
     E1,
-    /// The third of these.
+    /// Third of the Euler parameters.
     E2,
-    /// The last of these.
+    /// Last of the Euler parameters.
     E3,
 }
 
 impl Dof {
-    /// All that every body has, in their order.
+    /// Directions that every body has, in their order.
     pub const ALL: [Self; DOFS] = [Self::X, Self::Y, Self::Z, Self::Theta];
-    /// Those along axes.
+    /// Directions along axes.
     pub const TRANSLATIONS: [Self; 3] = [Self::X, Self::Y, Self::Z];
-    /// Those in the plane of rotation.
+    /// Directions in the plane of rotation.
     pub const SYMMETRIC: [Self; 2] = [Self::X, Self::Y];
-    /// Those by which rings tilt.
+    /// Directions by which rings tilt.
     pub const TILTS: [Self; 2] = [Self::TiltX, Self::TiltY];
-    /// Those in which balls spin freely, beside that about the bearing's axis.
+    /// Directions in which balls spin freely, beside that about the bearing's axis.
     pub const TURNS: [Self; 2] = [Self::TurnX, Self::TurnY];
     /// Euler parameters of a ball.
     pub const ATTITUDE: [Self; 4] = [Self::E0, Self::E1, Self::E2, Self::E3];
 
-    /// Its number among those of a body.
+    /// The direction's number among those of a body.
     #[inline]
     pub const fn index(self) -> usize {
         self as usize
@@ -73,14 +73,14 @@ impl Dof {
         }
     }
 
-    /// Whether it is an angle, its speed in rad/s and its force a moment.
+    /// Whether the direction is an angle, its speed in rad/s and its force a moment.
     #[inline]
     pub const fn is_rotation(self) -> bool {
         !matches!(self, Self::X | Self::Y | Self::Z)
     }
 }
 
-/// What has one entry a direction of a body is indexed by the direction.
+/// Arrays with one entry a direction of a body are indexed by the direction.
 impl<T> Index<Dof> for [T; DOFS] {
     type Output = T;
 

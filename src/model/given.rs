@@ -33,13 +33,13 @@ impl GivenMotions {
         }))
     }
 
-    /// That along or about an axis.
+    /// The given motion along or about an axis.
     pub(crate) fn of(&self, dof: Dof) -> Option<&TimeFunction> {
         let at = DOFS.iter().position(|one| *one == dof)?;
         self.0[at].as_ref()
     }
 
-    /// All of them.
+    /// All given motions with their directions.
     pub(crate) fn all(&self) -> impl Iterator<Item = (Dof, &TimeFunction)> {
         let each = DOFS.into_iter().zip(&self.0);
         each.filter_map(|(dof, motion)| Some((dof, motion.as_ref()?)))
@@ -53,7 +53,7 @@ impl Model {
         given.next().is_some()
     }
 
-    /// Whether one is given along the axis or about another.
+    /// Whether a motion is given along the axis or about another.
     pub(crate) fn has_given_motions_off_plane(&self) -> bool {
         let given = self.rings.iter().flat_map(|ring| ring.given.all());
         given

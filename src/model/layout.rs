@@ -13,13 +13,13 @@ use crate::scene::RingName;
 /// Bodies before the first ball: one ring a race.
 pub(crate) const RINGS: usize = Race::BOTH.len();
 
-/// One of the two races of a row, and the ring that carries it.
+/// Race of a row, one of two, and the ring that carries it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 pub enum Race {
-    /// On the outer ring.
+    /// Race on the outer ring.
     #[default]
     Outer,
-    /// On the inner ring.
+    /// Race on the inner ring.
     Inner,
 }
 
@@ -79,7 +79,7 @@ impl From<Race> for RingName {
     }
 }
 
-/// What a body is.
+/// Kind of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum BodyKind {
@@ -111,7 +111,7 @@ impl BodyId {
         Self(index)
     }
 
-    /// Its number among all bodies.
+    /// The body's number among all bodies.
     #[inline]
     pub const fn index(self) -> usize {
         self.0
@@ -127,7 +127,7 @@ impl BodyId {
         }
     }
 
-    /// Its number among the balls of all rows; none for a ring.
+    /// The body's number among the balls of all rows; none for a ring.
     #[inline]
     pub const fn as_ball(self) -> Option<usize> {
         match self.kind() {
@@ -136,7 +136,7 @@ impl BodyId {
         }
     }
 
-    /// So many bodies from this one on, which are neighbours in any table of bodies.
+    /// The numbers of so many bodies from this one on, which are neighbours in any table of bodies.
     #[inline]
     pub(crate) fn range(self, count: usize) -> Range<usize> {
         self.0..self.0 + count
@@ -149,11 +149,11 @@ impl BodyId {
     }
 }
 
-/// Where the places and speeds of all bodies stand in a state vector.
+/// Layout of a state vector: where the places and speeds of all bodies stand.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Layout {
     bodies: usize,
-    /// Which tilts of outer and inner ring move: bits in the order of their places.
+    /// Tilts of outer and inner ring that move: bits in the order of their places.
     tilts: u8,
     /// Whether balls spin freely.
     turns: bool,
@@ -162,7 +162,7 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// Of two rings and so many balls.
+    /// The layout of two rings and so many balls.
     #[inline]
     pub const fn of_balls(balls: usize) -> Self {
         Self {
@@ -221,13 +221,13 @@ impl Layout {
         self.first_attitude() + 4 * self.tumbling[1]
     }
 
-    /// Where the turning of balls begins.
+    /// Offset at which the turning of balls begins.
     #[inline]
     const fn first_turn(self) -> usize {
         DOFS * self.bodies + self.tilts.count_ones() as usize
     }
 
-    /// Where their attitudes begin.
+    /// Offset at which the attitudes of balls begin.
     #[inline]
     const fn first_attitude(self) -> usize {
         let turns = if self.turns {
@@ -238,7 +238,7 @@ impl Layout {
         self.first_turn() + turns
     }
 
-    /// Where a place stands in a state vector, or a speed among the speeds.
+    /// Offset of a place in a state vector, or of a speed among the speeds.
     #[inline]
     pub const fn at(self, body: BodyId, dof: Dof) -> usize {
         match dof {
@@ -256,13 +256,13 @@ impl Layout {
         }
     }
 
-    /// Where a speed stands in a state vector.
+    /// Offset of a speed in a state vector.
     #[inline]
     pub const fn speed_at(self, body: BodyId, dof: Dof) -> usize {
         self.half() + self.at(body, dof)
     }
 
-    /// What stands at a place in either half of a state vector.
+    /// Body and direction at an offset in either half of a state vector.
     #[inline]
     pub fn degree(self, at: usize) -> (BodyId, Dof) {
         let all = DOFS * self.bodies;
@@ -284,7 +284,7 @@ impl Layout {
         (BodyId(bit / 2), Dof::TILTS[bit % 2])
     }
 
-    /// All directions of all bodies, in the order of the places in a state vector.
+    /// Directions of all bodies, in the order of the places in a state vector.
     pub fn degrees(self) -> impl Iterator<Item = (BodyId, Dof)> {
         (0..self.half()).map(move |at| self.degree(at))
     }
@@ -334,7 +334,7 @@ impl Layout {
         half.as_chunks_mut().0
     }
 
-    /// Where a body is and how it moves in a state.
+    /// Place and motion of a body in a state.
     ///
     /// # Panics
     /// If there is no such body.
@@ -368,7 +368,7 @@ const fn tilt_bit(body: BodyId, tilt: Dof) -> usize {
     2 * body.0 + (tilt.index() - Dof::TiltX.index())
 }
 
-/// What has one entry a race is indexed by the race.
+/// Arrays with one entry a race are indexed by the race.
 impl<T> Index<Race> for [T; 2] {
     type Output = T;
 
@@ -385,7 +385,7 @@ impl<T> IndexMut<Race> for [T; 2] {
     }
 }
 
-/// What has one entry a body is indexed by the body.
+/// Vectors with one entry a body are indexed by the body.
 impl<T> Index<BodyId> for Vec<T> {
     type Output = T;
 

@@ -12,7 +12,7 @@ pub(crate) struct LoadModel {
     pub ring: Race,
     pub direction: [f64; 3],
     pub force: TimeFunction,
-    /// Where it acts, from the ring's centre of mass in its frame \[m\]; none at the ring's origin where that is all there is.
+    /// Place at which the load acts, from the ring's centre of mass in its frame \[m\]; none at the ring's origin where that is all there is.
     pub arm: Option<Vector3<f64>>,
 }
 

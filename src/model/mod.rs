@@ -64,7 +64,7 @@ pub struct Model {
     pub(crate) loads: Vec<LoadModel>,
     pub(crate) unbalances: Vec<UnbalanceModel>,
     pub(crate) springs: Vec<Spring>,
-    /// One over the mass of every body's free directions, 0 for the others.
+    /// Inverse of the mass of every body's free directions, 0 for the others.
     pub(crate) mobility: Vec<[f64; DOFS]>,
     pub(crate) rings: [RingModel; 2],
     /// Whether a ring is tilted or may tilt.
@@ -98,7 +98,7 @@ pub(crate) struct RowModel {
 }
 
 impl RowModel {
-    /// Its balls among those of all rows.
+    /// Numbers of the row's balls among those of all rows.
     #[inline]
     pub fn balls(&self) -> Range<usize> {
         self.first..self.first + self.count
@@ -110,14 +110,14 @@ impl RowModel {
         BodyId::ball(self.first)
     }
 
-    /// Whether its contacts follow the same equations as another row's, cut at as many places: kind of law, slices, damping
+    /// Whether the row's contacts follow the same equations as another row's, cut at as many places: kind of law, slices, damping
     /// and friction are the same. Of tori the geometry may differ, and waves and strength of the law, and of films their numbers.
     pub fn is_like(&self, other: &Self) -> bool {
         let mut pairs = self.pairs.iter().zip(&other.pairs);
         pairs.all(|(one, other)| one.is_like(other))
     }
 
-    /// Whether its balls rub on either race, or are resisted as they roll.
+    /// Whether the row's balls have friction on either race, or are resisted as they roll.
     pub fn has_friction(&self) -> bool {
         self.pairs.iter().any(|pair| pair.law.turns_balls())
     }
@@ -139,7 +139,7 @@ impl RowModel {
 #[derive(Debug, Clone)]
 pub(crate) struct Ball {
     pub row: usize,
-    /// Its number in the row.
+    /// Number of the ball in the row.
     pub index: usize,
     pub side: BallSide,
 }
@@ -181,7 +181,7 @@ impl Model {
         self.layout().dim()
     }
 
-    /// Where the places and speeds of all bodies stand in a state vector.
+    /// Layout of the places and speeds of all bodies in a state vector.
     #[inline]
     pub fn layout(&self) -> Layout {
         self.layout
@@ -275,7 +275,7 @@ impl Model {
         }
     }
 
-    /// What makes a length of a change in a direction of a body \[m\]: 1 along an axis, its radius about one. Euler parameters
+    /// Length that a change in a direction of a body makes \[m\]: 1 along an axis, its radius about one. Euler parameters
     /// change by half an angle.
     pub(crate) fn lever(&self, body: BodyId, dof: Dof) -> f64 {
         match dof {

@@ -21,7 +21,7 @@ pub(super) fn finer(model: &Model) -> usize {
     /// Nodes a sweep, beside the nodes of the rule itself. On six nodes friction of the wheel bearing then errs by 2e-5 and the
     /// signal of 6 ms with an impact by 0.3 %; with 1.0 by 9e-5 and 1.1 %, with 1.6 by 1e-5 and 0.1 %.
     const EACH: f64 = 1.3;
-    /// For what may start from rest too; and as many as cost less than the elements, beyond which friction is left as it is.
+    /// Range of the number of nodes: the least for what may start from rest too; and as many as cost less than the elements, beyond which friction is left as it is.
     const RANGE: [f64; 2] = [8.0, 96.0];
     let speed = model.scene.peak_relative_speed();
     let sweeps = model.rows.iter().enumerate().flat_map(|(i, row)| {

@@ -1,4 +1,4 @@
-//! From a user's scene to its model, in two passes.
+//! Compilation of a user's scene to its model, in two passes.
 //!
 //! 1. The *healthy* bearing at rest under its largest loads says where defects lie that are placed by contacts, what steep walls
 //!    unload, and whether pits are smaller than their contacts ([`place()`]).

@@ -1,4 +1,4 @@
-//! Where defects are placed that are to lie where contacts run.
+//! Places of defects that are to lie where contacts run.
 //!
 //! Runs, equilibria and explanations all place defects by this module.
 
@@ -12,7 +12,7 @@ use crate::base::error::{Error, Result};
 use crate::base::quantities;
 use crate::scene::{AxialOffset, Damage, Defect, Row, Scene, Surface};
 
-/// Where the number of a defect's axial place comes from.
+/// Origin of the number of a defect's axial place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
@@ -122,7 +122,7 @@ fn between_walls(
     }))
 }
 
-/// Where a contact would run at the nominal contact angle \[m\]: at ±R sin α₀, on the inner race with its preload.
+/// Place where a contact would run at the nominal contact angle \[m\]: at ±R sin α₀, on the inner race with its preload.
 fn nominal(defect: &Defect, row: &Row) -> f64 {
     let side = f64::from(row.side);
     let place = side * row.ball_diameter / 2.0 * row.contact_angle.sin();

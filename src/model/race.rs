@@ -9,7 +9,7 @@ use crate::scene::{GothicArch, RaceProfile, Row};
 
 /// A race in its ring's frame.
 pub(super) enum RaceGeometry {
-    /// One surface, and the torus that it is or is like.
+    /// A single surface, and the torus that it is or is like.
     One(Torus, Shape),
     /// The flanks of a gothic arch towards −z and +z, and its shim angle \[rad\].
     Arch([Torus; 2], f64),

@@ -9,20 +9,20 @@ use crate::scene::Row;
 #[derive(Clone, Copy, PartialEq)]
 enum Need {
     Nothing,
-    /// It gives one \[N\].
+    /// A load that the film gives \[N\].
     Given(f64),
-    /// That of its equilibrium.
+    /// The load of the row's equilibrium.
     Equilibrium,
 }
 
 impl Need {
-    /// Of a row that may give a load.
+    /// The reference of a row that may give a load.
     fn unless(given: Option<f64>) -> Self {
         given.map_or(Self::Equilibrium, Self::Given)
     }
 }
 
-/// What rows need a load for, and which of them do.
+/// Loads that rows need, and which of them do.
 struct Needs<'a> {
     what: &'a str,
     rows: Vec<Need>,

@@ -1,4 +1,4 @@
-//! What a ring that may tilt has in addition to the four directions of every body.
+//! Numbers of a ring that may tilt in addition to the four directions of every body.
 
 use nalgebra::{Matrix6, Vector3};
 
@@ -54,7 +54,7 @@ impl RingModel {
         }
     }
 
-    /// From the centre of mass to a point of the ring's frame \[m\].
+    /// Vector from the centre of mass to a point of the ring's frame \[m\].
     pub fn arm(&self, [x, y, z]: [f64; 3]) -> Vector3<f64> {
         Vector3::new(x, y, z - self.centre_of_mass)
     }

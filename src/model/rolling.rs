@@ -47,12 +47,12 @@ pub(crate) struct Between {
     pub distance: f64,
     /// α_o and α_i.
     pub angles: [f64; 2],
-    /// Of the inner ring against the outer \[rad/s\].
+    /// Speed of the inner ring against the outer \[rad/s\].
     pub speed: f64,
 }
 
 impl Between {
-    /// Without pivoting on one race.
+    /// Rolling without pivoting on one race.
     pub fn controlled_by(&self, race: Race) -> PureRolling {
         let Self {
             radius,
@@ -89,7 +89,7 @@ impl Between {
         ]
     }
 
-    /// With pivoting rates as one over how much the races resist it: what friction far below sliding settles to.
+    /// Rolling with pivoting rates as one over how much the races resist it: what friction far below sliding settles to.
     pub fn resisted(&self, [outer, inner]: [f64; 2]) -> PureRolling {
         let [at_outer, at_inner] = Race::BOTH.map(|race| self.controlled_by(race));
         let ([_, inner_rate], [outer_rate, _]) =

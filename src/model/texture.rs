@@ -219,7 +219,7 @@ fn check_memory(last: u32, count: usize) -> Result<()> {
 struct Draw(u64);
 
 impl Draw {
-    /// Of a seed, and of row, body (0 outer race, 1 inner race, 2 ball) and ball.
+    /// The random numbers of a seed, and of row, body (0 outer race, 1 inner race, 2 ball) and ball.
     fn new(seed: u64, of: [u64; 3]) -> Self {
         Self(of.into_iter().fold(mixed(seed), |z, x| mixed(z ^ x)))
     }
@@ -352,7 +352,7 @@ mod tests {
         }
     }
 
-    /// Over 4000 seeds at one place: mean square Σ A_n² T_n²/2 and a kurtosis of 3, as of a Gaussian surface.
+    /// Heights of 4000 seeds at one place: mean square Σ A_n² T_n²/2 and a kurtosis of 3, as of a Gaussian surface.
     #[test]
     fn heights_are_gaussian() {
         let (arc, texture) = (5e-3, Texture::of_races(1e-9));

@@ -18,10 +18,10 @@ use ballrace::{Block, Column, Interrupt, Result};
 /// Longest time between two looks at signals, and least time between two calls of a callback.
 const ATTENTION: Duration = Duration::from_millis(50);
 
-/// What work reports the share done to, and is stopped by.
+/// Callback to which work reports the share done, and by which it is stopped.
 pub(super) type Progress<'a> = &'a mut dyn FnMut(f64) -> ControlFlow<()>;
 
-/// What work hands blocks of a record to.
+/// Callback to which work hands blocks of a record.
 pub(super) type Sink<'a> = &'a mut (dyn FnMut(Block) -> ControlFlow<()> + Send);
 
 /// Messages to the waiting thread.
@@ -56,7 +56,7 @@ pub(super) fn answering<T: Send + 'static>(
     })
 }
 
-/// As [`answering`], for work with forces by code: what one of them raises, this raises.
+/// Answer as of [`answering`], for work with forces by code: what one of them raises, this raises.
 pub(super) fn forced<T: Send + 'static>(
     py: Python<'_>,
     progress: Option<&Py<PyAny>>,
@@ -73,7 +73,7 @@ pub(super) fn forced<T: Send + 'static>(
     raised.before(py, done)
 }
 
-/// As [`answering`], for work that hands over blocks, too; it waits while one is taken. Whoever holds `stop` ends the work.
+/// Answer as of [`answering`], for work that hands over blocks, too; it waits while one is taken. Whoever holds `stop` ends the work.
 pub(super) fn handing_over<T: Send + 'static>(
     py: Python<'_>,
     callbacks: Callbacks<'_>,
@@ -112,7 +112,7 @@ pub(super) fn handing_over<T: Send + 'static>(
         .or_raise(py)
 }
 
-/// Until the other end is gone.
+/// Serves the messages until the other end is gone.
 fn wait(receiver: &Receiver<Message>, callbacks: Callbacks<'_>) -> PyResult<()> {
     let mut looked = Instant::now();
     loop {

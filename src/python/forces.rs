@@ -44,7 +44,7 @@ impl Raised {
         raised
     }
 
-    /// What work is stopped by, after an exception.
+    /// Interrupt by which work is stopped after an exception.
     pub fn stop(&self) -> Interrupt {
         let mut first = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         first.stop = Interrupt::new();

@@ -13,7 +13,7 @@ pub(super) fn named_oils() -> String {
     json!(NAMED_OILS).to_string()
 }
 
-/// What the oil of a lubricant is at its temperature, each number with its source: given, named oil, base, default, a
+/// Properties of the oil of a lubricant at its temperature, each number with its source: given, named oil, base, default, a
 /// standard or a publication.
 #[pyfunction]
 pub(super) fn oil(py: Python<'_>, lubricant: &str) -> PyResult<String> {

@@ -164,7 +164,7 @@ pub(super) fn state_of(scene: &Scene, y: &PyReadonlyArray1<'_, f64>) -> ballrace
     Ok(y.as_array().iter().copied().collect())
 }
 
-/// What a scene is compiled to and costs, as JSON and as text.
+/// Explanation of what a scene is compiled to and costs, as JSON and as text.
 #[pyfunction]
 pub(super) fn explain(py: Python<'_>, scene: &str) -> PyResult<(String, String)> {
     let scene = Scene::from_json(scene).or_raise(py)?;

@@ -25,7 +25,7 @@ pub(super) fn scene_to_toml(py: Python<'_>, text: &str) -> PyResult<String> {
     Ok(Scene::from_json(text).or_raise(py)?.to_toml())
 }
 
-/// What is unusual about a scene's numbers and probes, a text each.
+/// Doubts about a scene's numbers and probes, a text each.
 #[pyfunction]
 pub(super) fn scene_doubts(py: Python<'_>, text: &str) -> PyResult<Vec<String>> {
     let scene = Scene::from_json(text).or_raise(py)?;

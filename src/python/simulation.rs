@@ -48,7 +48,7 @@ impl GoingRun {
         Ok(Self(Arc::new(Mutex::new(Some(made))), raised))
     }
 
-    /// One that goes on where a snapshot was taken.
+    /// A simulation that goes on where a snapshot was taken.
     #[staticmethod]
     fn restored(py: Python<'_>, snapshot: &str) -> PyResult<Self> {
         let snapshot = Snapshot::from_json(snapshot).or_raise(py)?;
@@ -59,7 +59,7 @@ impl GoingRun {
         Ok(Self(Arc::new(Mutex::new(Some(made))), raised))
     }
 
-    /// What it needs to go on, as JSON.
+    /// Snapshot of what the simulation needs to go on, as JSON.
     fn snapshot(&self, py: Python<'_>) -> PyResult<String> {
         self.with(py, |simulation| Ok(simulation.snapshot().to_json()))
     }
@@ -110,7 +110,7 @@ impl GoingRun {
         Ok(contacts)
     }
 
-    /// What the balls put on a ring.
+    /// Wrench of the balls on a ring.
     fn wrench<'py>(&self, py: Python<'py>, ring: &str) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let ring = match ring {
             "outer" => RingName::Outer,

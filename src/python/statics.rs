@@ -51,7 +51,7 @@ const OF_RINGS: [OfRing; 4] = [
     ("inner_moment", |found| found.inner_moment),
 ];
 
-/// What decides how balls spin, by its name.
+/// Hypothesis on how balls spin, by its name.
 fn control(name: &str) -> Result<RaceControl> {
     match name {
         "friction" => Ok(RaceControl::Friction),
@@ -171,7 +171,7 @@ pub(super) fn load_distribution<'py>(
     Ok(all)
 }
 
-/// What is found of a scene as JSON.
+/// Solution of a scene as JSON.
 fn solved<T: Send + 'static>(
     py: Python<'_>,
     scene: &str,

@@ -22,7 +22,7 @@ struct Driven {
 }
 
 impl Driven {
-    /// What it adds to a place and to a speed at a time.
+    /// Additions to a place and to a speed at a time.
     fn at(&self, t: f64) -> (f64, f64) {
         (
             self.share * self.turned.at(&self.speed, t),
@@ -32,7 +32,7 @@ impl Driven {
 }
 
 impl Course {
-    /// At a constant speed, at a place at a time.
+    /// A course at a constant speed, at a place at a time.
     pub fn steady((t, place): (f64, f64), speed: f64) -> Self {
         Self {
             place: place - speed * t,
@@ -41,7 +41,7 @@ impl Course {
         }
     }
 
-    /// At a place at a time, with a speed that changes with shares of those of outer and inner ring.
+    /// A course at a place at a time, with a speed that changes with shares of those of outer and inner ring.
     pub fn driven((t, place): (f64, f64), speed: f64, shares: [f64; 2], scene: &Scene) -> Self {
         let of_ring = |(ring, share)| match scene.given_speed(ring)? {
             TimeFunction::Constant(_) => None,
@@ -63,7 +63,7 @@ impl Course {
         }
     }
 
-    /// In proportion to the rings' speed against each other, seen from the outer ring: as at that time, or by a given share where
+    /// A course in proportion to the rings' speed against each other, seen from the outer ring: as at that time, or by a given share where
     /// they then turn as one.
     pub fn geared(from: (f64, f64), speed: f64, at_rest: f64, scene: &Scene) -> Self {
         let [outer, inner] = scene.ring_speeds(from.0);
@@ -75,7 +75,7 @@ impl Course {
         Self::driven(from, speed, [1.0 - share, share], scene)
     }
 
-    /// Whether it ever leaves its place.
+    /// Whether the body ever leaves its place.
     pub fn moves(&self) -> bool {
         self.speed != 0.0 || !self.driven.is_empty()
     }
@@ -96,7 +96,7 @@ impl Course {
     }
 }
 
-/// What all of them add to a place and to a speed at a time.
+/// Sum of the additions of all courses to a place and to a speed at a time.
 fn sum(driven: &[Driven], t: f64) -> (f64, f64) {
     driven.iter().fold((0.0, 0.0), |(place, speed), each| {
         let (turned, of) = each.at(t);
@@ -143,7 +143,7 @@ impl Turn {
 }
 
 impl Orbit {
-    /// From a start, a state of all bodies: as fast as the balls of the row are in the mean, and in proportion to the
+    /// The course from a start, a state of all bodies: as fast as the balls of the row are in the mean, and in proportion to the
     /// rings. `at` is the place of the first radius among the states, if they are.
     pub fn of(model: &Model, row: usize, (t, start): (f64, &[f64]), at: Option<usize>) -> Self {
         let layout = model.layout();
@@ -170,7 +170,7 @@ impl Orbit {
         }
     }
 
-    /// How far it has turned.
+    /// Angle by which it has turned.
     pub fn turn(&self, t: f64) -> Turn {
         let (angle, speed) = self.course.at(t);
         let (sin, cos) = angle.sin_cos();

@@ -1,4 +1,4 @@
-//! Which directions are left out, why, and how they move nevertheless.
+//! Grounds on which directions are left out, and how they move nevertheless.
 
 use super::AxialPlaces;
 use super::course::{Course, Prescribed};
@@ -53,7 +53,7 @@ impl Reason {
     }
 }
 
-/// What a scene allows to be left out, found before the choice is made.
+/// Grounds of a scene for leaving directions out, found before the choice is made.
 #[derive(Default)]
 pub(super) struct Grounds {
     /// Whether directions that do not change the motion are left out.

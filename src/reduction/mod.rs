@@ -1,4 +1,4 @@
-//! Which degrees of freedom a run integrates, and why not the others.
+//! Reduction of a run: which degrees of freedom it integrates, and why not the others.
 //!
 //! Left out by default is only what does not change the motion: directions that cannot accelerate (held, driven, or without any
 //! moment), and those that a mirror symmetry of scene *and* start keeps at rest or makes a copy of others. Approximations are made
@@ -26,13 +26,13 @@ pub struct Reduction {
     stretches: Vec<Stretch>,
     kept: usize,
     prescribed: Vec<Prescribed>,
-    /// Those that some force depends on.
+    /// Prescribed motions that some force depends on.
     felt: Vec<Prescribed>,
     /// Rows that turn as one.
     orbits: Vec<Orbit>,
     /// Rows whose contacts are evaluated.
     pub(crate) rows: Range<usize>,
-    /// All bodies stay in the planes of their rows.
+    /// Condition that all bodies stay in the planes of their rows.
     pub(crate) plane: bool,
     /// Axial places of rings and rows that are kept.
     pub(crate) axial_places: Option<AxialPlaces>,
@@ -48,9 +48,9 @@ pub struct Reduction {
 #[derive(Debug, Clone, PartialEq, Eq, serde::Serialize)]
 #[non_exhaustive]
 pub struct Omission {
-    /// What they are, such as `z`.
+    /// Name of the directions, such as `z`.
     pub what: String,
-    /// How many.
+    /// Number of degrees of freedom.
     pub degrees: usize,
     /// Why they may go.
     pub reason: String,
@@ -62,16 +62,16 @@ pub struct Omission {
 pub struct Obstacle {
     /// The reduction.
     pub what: String,
-    /// What stands against it.
+    /// Reason that stands against it.
     pub reason: String,
 }
 
 /// Axial places that rings and rows keep.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct AxialPlaces {
-    /// Of outer and inner ring \[m\].
+    /// Places of outer and inner ring \[m\].
     pub rings: [f64; 2],
-    /// Of the balls of each row \[m\].
+    /// Places of the balls of each row \[m\].
     pub rows: Vec<f64>,
 }
 
@@ -96,12 +96,12 @@ pub(crate) struct Stretch {
 }
 
 impl Stretch {
-    /// Their numbers among all bodies.
+    /// Numbers of the bodies among all.
     pub fn bodies(&self) -> Range<usize> {
         self.first.range(self.count)
     }
 
-    /// Their places among the states.
+    /// Places of the bodies among the states.
     pub fn states(&self) -> Range<usize> {
         self.at..self.at + self.count
     }
@@ -128,7 +128,7 @@ impl Reduction {
         whole
     }
 
-    /// What a run from a state of all bodies leaves out; absent where it integrates all states in the order of
+    /// The reduction of a run from a state of all bodies; absent where it integrates all states in the order of
     /// [`Model::names`], since rings tilt or balls spin freely.
     ///
     /// # Panics
@@ -137,7 +137,7 @@ impl Reduction {
         Self::since(model, (0.0, start))
     }
 
-    /// As [`Self::of`], of a run that goes on from a state at a time \[s\].
+    /// The reduction as of [`Self::of`], of a run that goes on from a state at a time \[s\].
     pub(crate) fn since(model: &Model, from: (f64, &[f64])) -> Option<Self> {
         let (_, start) = from;
         assert_eq!(start.len(), model.dim(), "length of the state");
@@ -285,12 +285,12 @@ impl Reduction {
         2 * self.kept
     }
 
-    /// What is left out.
+    /// The parts that are left out.
     pub fn omissions(&self) -> &[Omission] {
         &self.omissions
     }
 
-    /// What cannot be.
+    /// The parts that cannot be left out.
     pub fn obstacles(&self) -> &[Obstacle] {
         &self.obstacles
     }
@@ -299,7 +299,7 @@ impl Reduction {
         &self.stretches
     }
 
-    /// What moves by itself and is felt by some force.
+    /// Motions that go by themselves and are felt by some force.
     pub(crate) fn felt(&self) -> &[Prescribed] {
         &self.felt
     }
@@ -391,7 +391,7 @@ impl Reduction {
         self.mirror(model, accelerations);
     }
 
-    /// Where one row runs for two, gives the second one the numbers of the first: speeds or changes, by body.
+    /// Mirrors the first row, where one runs for two, into the second: speeds or changes, by body.
     pub(crate) fn mirror(&self, model: &Model, half: &mut [f64]) {
         if self.mirrored {
             copy_row(model, half, 0.0);

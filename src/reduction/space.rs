@@ -5,7 +5,7 @@ use super::{Obstacle, Omission, Prescribed, Reduction, symmetry};
 use crate::model::{Dof, Model};
 
 impl Reduction {
-    /// Of rings that may tilt and balls that may spin freely, and do not, since the motion is its own mirror image: that is then left
+    /// The reduction of rings that may tilt and balls that may spin freely, and do not, since the motion is its own mirror image: that is then left
     /// out with all that moves along z, rings are those that stay parallel and balls spin about the axis. Else all states are
     /// integrated, and the obstacles are reported.
     ///
@@ -36,7 +36,7 @@ impl Reduction {
     }
 }
 
-/// What may turn about x or y in a motion that is its own mirror image but for that.
+/// Obstacles: what may turn about x or y in a motion that is its own mirror image but for that.
 fn against(model: &Model, start: &[f64], mirrored: bool) -> Vec<Obstacle> {
     let mut found = Vec::new();
     let mut look = |what: &str, looked: Result<(), String>| {

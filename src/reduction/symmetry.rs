@@ -123,7 +123,7 @@ fn images(model: &Model, first: &RowModel, second: &RowModel, start: &[f64]) -> 
     )
 }
 
-/// Whether rings that may tilt stay parallel in a motion that is its own mirror image: they start so, have their centres of mass in
+/// Symmetry of tilts: whether rings that may tilt stay parallel in a motion that is its own mirror image: they start so, have their centres of mass in
 /// the mirror's plane, and nothing acts on them off it.
 pub(super) fn of_tilts(model: &Model, start: &[f64], mirrored: bool) -> Symmetry {
     let rows = &model.scene.rows;

@@ -102,7 +102,7 @@ fn cap(scene: &mut Scene, model: &Model) {
     }
 }
 
-/// From the first one down to the tightest, by tens.
+/// Tolerances from the first one down to the tightest, by tens.
 fn tolerances(requested: f64) -> Vec<f64> {
     let mut all = vec![FIRST * requested];
     while let Some(&last) = all.last()

@@ -8,7 +8,7 @@ use crate::model::{Model, Race};
 /// How a run is made more accurate.
 pub(super) const FINER: &str = "use a smaller rtol";
 
-/// Which race a ball has left in a state of all bodies, which way and how far, and the possible cause.
+/// Reason of an escape: the race that a ball has left in a state of all bodies, which way and how far, and the possible cause.
 pub(crate) fn reason(model: &Model, y: &[f64], j: usize) -> String {
     let ball = &model.balls[j];
     let radius = ball.side.radius;

@@ -20,7 +20,7 @@ use crate::integrate::{self, DenseStep, Observer, Options, StepStatistics};
 use crate::model::{BodyId, Model};
 use crate::signals::Statistics;
 
-/// After how many steps the clock is read: of a small model's step that would take a fiftieth. One of a large model is long enough to ask
+/// Number of steps after which the clock is read: of a small model's step that would take a fiftieth. One of a large model is long enough to ask
 /// after each.
 const ASK_EVERY: usize = 8;
 
@@ -44,7 +44,7 @@ pub(crate) struct Trajectory {
     /// The run's own states where it stands, and the time \[s\].
     own: Vec<f64>,
     time: f64,
-    /// Of the integration; none before its first step, and at its end.
+    /// Memory of the integration; none before its first step, and at its end.
     memory: Option<Memory>,
     /// Whether the watch is still to see its first state.
     is_unseen: bool,
@@ -58,7 +58,7 @@ pub(crate) struct Trajectory {
 }
 
 impl Trajectory {
-    /// From a state of all bodies. The watch sees it.
+    /// The motion from a state of all bodies. The watch sees it.
     pub fn new(model: &Model, y0: Vec<f64>, interval: Interval, max_step: f64) -> Self {
         Self {
             interval,
@@ -78,7 +78,7 @@ impl Trajectory {
         }
     }
 
-    /// Where this one stands, with another model: steps count on, the watch goes on.
+    /// The motion from where this one stands, with another model: steps count on, the watch goes on.
     pub fn after(&self, model: &Model, y0: Vec<f64>, max_step: f64) -> Self {
         let from = self.time;
         Self {
@@ -96,7 +96,7 @@ impl Trajectory {
         }
     }
 
-    /// Where it begins on the integrator's clock \[s\].
+    /// Beginning on the integrator's clock \[s\].
     pub fn begins(&self) -> f64 {
         self.interval.from
     }
@@ -111,7 +111,7 @@ impl Trajectory {
         &self.last
     }
 
-    /// Where it stands on the integrator's clock \[s\].
+    /// Present time on the integrator's clock \[s\].
     pub fn time(&self) -> f64 {
         self.time
     }
@@ -204,7 +204,7 @@ impl Trajectory {
         Ok(())
     }
 
-    /// What came of it.
+    /// Statistics of the motion.
     pub fn statistics(&self, model: &Model) -> Statistics {
         Statistics {
             clamped_pulls: self.pulls,

@@ -11,21 +11,21 @@ use crate::integrate::{
 use crate::scene::Method;
 use crate::velocities::Damped;
 
-/// From where to where, and how well.
+/// Task of an integration: from where to where, and how well.
 #[derive(Clone, Copy)]
 pub(crate) struct Integration<'a> {
     pub span: (f64, f64),
-    /// Where it begins if nothing is remembered.
+    /// State at which it begins if nothing is remembered.
     pub y0: &'a [f64],
     pub tolerance: &'a Tolerance,
     pub options: &'a Options,
 }
 
-/// What an integration that stands remembers.
+/// Memory of an integration that stands.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Memory {
     integrator: Vec<u64>,
-    /// Of the contacts' matrix.
+    /// Words of the contacts' matrix.
     matrix: Vec<u64>,
     /// Speed of films that follow that of the rings, as of the last evaluation \[rad/s\].
     film_speed: Option<f64>,
@@ -39,7 +39,7 @@ impl Remembered for Memory {
     }
 }
 
-/// What the scene's method is called.
+/// Name of the scene's method.
 pub(crate) fn name(method: Method) -> &'static str {
     match method {
         Method::DormandPrince => DORMAND_PRINCE.name,

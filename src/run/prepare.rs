@@ -18,12 +18,12 @@ use crate::statics::{compile, place};
 #[derive(Debug, Clone)]
 pub(super) struct Prepared {
     pub scene: Scene,
-    /// What loads and given motions the scene was compiled with, by their paths, of those that were set since.
+    /// Loads and given motions with which the scene was compiled, by their paths, of those that were set since.
     pub compiled_with: BTreeMap<String, TimeFunction>,
     /// The defects by name, and where the contact runs that they were placed by.
     pub placed: BTreeMap<String, Placed>,
     pub settled: Settled,
-    /// What a requested accuracy chose.
+    /// Choice for a requested accuracy.
     pub accuracy: Option<Accuracy>,
 }
 

@@ -1,4 +1,4 @@
-//! What a run records about the origin of its signals.
+//! Provenance: what a run records about the origin of its signals.
 
 use super::Run;
 use super::method;
@@ -28,7 +28,7 @@ pub(super) struct Done<'a> {
     pub kinematics: Vec<RowKinematics>,
 }
 
-/// What is to be recorded of it.
+/// The provenance of a run.
 pub(super) fn provenance(run: &Run, done: Done<'_>) -> Provenance {
     let (model, solver) = (done.model, &done.prepared.scene.solver);
     let start = match run.start {

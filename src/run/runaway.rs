@@ -17,14 +17,14 @@ const FURTHEST: f64 = 0.5;
 pub(crate) struct Bounds {
     /// Place of each state, 0 for speeds and angles.
     centre: Vec<f64>,
-    /// How far it may be from there.
+    /// Distances that bodies may be from there.
     reach: Vec<f64>,
     /// Body and direction of each of the first half of them.
     degrees: Vec<(BodyId, Dof)>,
 }
 
 impl Bounds {
-    /// For runs that start from the state `y0` of all bodies: a pitch diameter around the start of a ring, around the
+    /// The bounds of runs that start from the state `y0` of all bodies: a pitch diameter around the start of a ring, around the
     /// pitch circle for a ball.
     pub fn new(dynamics: &Dynamics<'_>, y0: &[f64]) -> Self {
         let model = dynamics.model();
@@ -103,7 +103,7 @@ mod tests {
 
     const INNER: BodyId = BodyId::INNER;
 
-    /// What has left the bounds after some states of the start are changed: (is it a speed, body, direction, what is added).
+    /// Body that has left the bounds after some states of the start are changed: (is it a speed, body, direction, what is added).
     fn left_after(changes: &[(bool, BodyId, Dof, f64)]) -> Option<(BodyId, String)> {
         let model = compile(&presets::deep_groove_6205(500.0, 0.0, 1800.0)).unwrap();
         let mut y = start(&model, &Start::Equilibrium).unwrap();

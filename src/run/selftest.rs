@@ -16,7 +16,7 @@ use crate::statics::start::{Start, start};
 /// contacts.
 const TOLERANCE: f64 = 1e-9;
 
-/// What evaluates the contacts of a body, as [`Distrust`] names it.
+/// Evaluation of the contacts of a body, as [`Distrust`] names it.
 const CONTACTS: &str = "contacts";
 
 /// The model with its instruction set, or with the next narrower one where contacts do not agree, and what was wrong if anything was.
@@ -50,7 +50,7 @@ fn agrees(instructions: InstructionSet) -> bool {
         .is_some_and(|at| *FOUND[at].get_or_init(|| scenes().iter().all(|s| fits(s, instructions))))
 }
 
-/// One scene a way to evaluate contacts: by eights, in closed form along the balls with one over a spall, in one loop.
+/// Scenes of the test, one a way to evaluate contacts: by eights, in closed form along the balls with one over a spall, in one loop.
 fn scenes() -> [Scene; 3] {
     let wheel = presets::wheel_bearing(3000.0);
     let mut smooth = presets::deep_groove_6205(500.0, 0.0, 1800.0);
@@ -72,7 +72,7 @@ fn fits(scene: &Scene, instructions: InstructionSet) -> bool {
 fn difference(scene: &Scene, instructions: InstructionSet) -> crate::Result<f64> {
     /// Deeper than the clearance, so that the lower balls carry \[m\].
     const PRESSED: f64 = 20e-6;
-    /// Of the way to the pitch circle; the outer race is a quarter of the clearance away.
+    /// Distance of the balls from the axis over the pitch circle's radius; the outer race is a quarter of the clearance away.
     const SPREAD: f64 = 1.0 + 5e-4;
     let model = compile(scene)?.with_instructions(instructions);
     let mut y = start(&model, &Start::Rolling)?;

@@ -34,7 +34,7 @@ pub(super) struct Session<'s> {
     options: Options,
     pub trajectory: Trajectory,
     pub recorder: Recorder<'s>,
-    /// What came of the run before its scene was changed.
+    /// Statistics of the run before its scene was changed.
     earlier: Option<Statistics>,
 }
 
@@ -60,7 +60,7 @@ impl<'s> Session<'s> {
         Self::of(run, prepared, compiled, sampling, trajectory, keep)
     }
 
-    /// Where a session of some run stood.
+    /// The session of a run where it stood.
     pub fn restored(
         run: &Run,
         prepared: Prepared,
@@ -112,7 +112,7 @@ impl<'s> Session<'s> {
         })
     }
 
-    /// What it needs to go on.
+    /// Memory that the session needs to go on.
     pub fn remembered(&mut self) -> Remembrance {
         Remembrance {
             trajectory: Words::saved(&mut self.trajectory),
@@ -258,7 +258,7 @@ impl<'s> Session<'s> {
         self.earlier.map_or(now, |earlier| earlier.and(&now))
     }
 
-    /// What the run has given.
+    /// Signals that the run has given.
     pub fn into_signals(self) -> Signals {
         let mut stats = self.statistics();
         stats.acceleration_residual = self.recorder.residual.value();
@@ -320,7 +320,7 @@ fn check_kept(before: &Model, after: &Model) -> Result<()> {
     Ok(())
 }
 
-/// All of a run.
+/// Interval of a whole run.
 fn whole(run: &Run) -> Interval {
     Interval {
         zero: 0.0,

@@ -82,7 +82,7 @@ const MOST_OVERESTIMATED: f64 = 5.0;
 /// Damping over contact frequency above which velocities decay within a step, so that orders say nothing.
 const OVERDAMPED: f64 = 10.0;
 
-/// By how much the error estimate of the scene's method exceeds the error. Not under films, whose forces follow speeds so closely that
+/// Factor by which the error estimate of the scene's method exceeds the error. Not under films, whose forces follow speeds so closely that
 /// accelerations of a run-up would err by 3.7 instead of 1.2 % (`tests/analytic/oil_run.rs`), for steps that they hold short anyway. Nor where contacts vibrate
 /// undamped and errors add up: 5.6 % in 3 ms of a 6205 (`tests/accuracy/method_defaults.rs`).
 fn overestimate(model: &Model) -> f64 {

@@ -41,13 +41,13 @@ const LONGEST_TAKE_UP: f64 = 0.012;
 /// Ball passes to wait for at least: in a wheel bearing under 3 kN of thrust the vibration in the first is twice that in the third.
 const PASSES: f64 = 2.0;
 
-/// Until so long before t = 0 \[s\] steps are limited by a tolerance alone, looser than the default of 1e-7 and without the cap by
+/// Time before t = 0 \[s\] until which steps are limited by a tolerance alone, looser than the default of 1e-7 and without the cap by
 /// the contacts' frequency: none of it is recorded, and the measure above is the same (over three loads and 24 starts 0.86, 1.29, 0.95 and 0.92
 /// instead of 0.87, 1.29, 0.96 and 0.92) for half of the evaluations. The rest is what contacts need to stop ringing by such steps.
 const FINE: f64 = 3e-3;
 const COARSE: f64 = 1e-5;
 
-/// From where a run goes on at t = 0, and what it took to get there.
+/// State from which a run goes on at t = 0, and what it took to get there.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct Settled {
     #[serde(skip)]
@@ -136,7 +136,7 @@ fn coarse(model: &Model) -> Model {
     coarse
 }
 
-/// Without an observer while the start settles.
+/// Observer of nothing while the start settles.
 struct Unseen;
 
 impl StepWatch for Unseen {
@@ -241,9 +241,9 @@ fn before(model: &Model, from: &Start, y0: Vec<f64>, seconds: f64) -> Result<Vec
 /// How far bodies turn in a time \[rad\].
 struct Turned {
     rings: [f64; 2],
-    /// About the axis, a row each.
+    /// Angle about the axis, a row each.
     rows: Vec<f64>,
-    /// About their own centres, in the mean of a row.
+    /// Angle about the balls' own centres, in the mean of a row.
     balls: Vec<f64>,
 }
 

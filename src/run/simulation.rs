@@ -64,7 +64,7 @@ impl Simulation {
         Self::begin_with_progress(scene, run, &mut |_| ControlFlow::Continue(()))
     }
 
-    /// As [`Self::begin`]; `progress` may stop it.
+    /// Begins as [`Self::begin`]; `progress` may stop it.
     ///
     /// # Errors
     /// As [`Self::begin`]; [`Error::Interrupted`] if `progress` broke off.
@@ -115,7 +115,7 @@ impl Simulation {
         })
     }
 
-    /// What the run needs to go on from here.
+    /// Snapshot of what the run needs to go on from here.
     pub fn snapshot(&mut self) -> Snapshot {
         let remembered = self.session.remembered();
         let Session { run, prepared, .. } = &self.session;
@@ -156,7 +156,7 @@ impl Simulation {
         })
     }
 
-    /// What the balls put on a ring: force along x, y and z \[N\], moment about the ring's centre of mass \[N m\].
+    /// Wrench of the balls on a ring: force along x, y and z \[N\], moment about the ring's centre of mass \[N m\].
     pub fn wrench(&self, ring: RingName) -> [f64; 6] {
         let y = self.state();
         at_films_of(self.model(), y, |model| {
@@ -304,7 +304,7 @@ impl Simulation {
         self.finish_with_progress(&mut |_| ControlFlow::Continue(()))
     }
 
-    /// As [`Self::finish`]; `progress` may stop it.
+    /// Finishes as [`Self::finish`]; `progress` may stop it.
     ///
     /// # Errors
     /// As [`Self::finish`]; [`Error::Interrupted`] if `progress` broke off.
@@ -322,7 +322,7 @@ impl Simulation {
         Ok(self.session.into_signals())
     }
 
-    /// Whether it can be ended here, which takes it.
+    /// Whether the run can be ended here, which takes it.
     ///
     /// # Errors
     /// As [`Self::finish`], from before its last steps.

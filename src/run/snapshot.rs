@@ -32,7 +32,7 @@ pub struct Snapshot {
     remembered: Remembrance,
 }
 
-/// What a run remembers.
+/// Memory of a run between its pieces.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Remembrance {
@@ -41,7 +41,7 @@ pub(super) struct Remembrance {
     pub recorder: Vec<u64>,
     /// Points a sample at which filtered signals are read.
     pub oversampling: usize,
-    /// What came of the run before its scene was changed.
+    /// Statistics of the run before its scene was changed.
     pub earlier: Option<Statistics>,
 }
 
@@ -71,7 +71,7 @@ impl Snapshot {
         serde_json::from_value(document).map_err(|e| refused(e.to_string()))
     }
 
-    /// As JSON on one line.
+    /// JSON of the snapshot on one line.
     ///
     /// # Panics
     /// Never: every snapshot has a JSON form.

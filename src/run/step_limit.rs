@@ -9,13 +9,13 @@ use crate::forces::damping;
 use crate::model::Model;
 use crate::scene::Method;
 
-/// What a method bears.
+/// Bounds of the steps that a method bears.
 struct MethodBounds {
     /// Largest ωh.
     oscillation: f64,
     /// c and p: an undamped oscillation is wrong by c (ωh)^p a radian.
     lag: (f64, f64),
-    /// Over how many times the time in which damping ends it that adds up.
+    /// Number of times over which it adds up, of the time in which damping ends it.
     rings: f64,
 }
 

@@ -21,12 +21,12 @@ pub(crate) trait StepWatch: Send {
         until: f64,
     ) -> ControlFlow<()>;
 
-    /// Until when it wants to see steps of a stretch with this end \[s\].
+    /// Time until which it wants to see steps of a stretch with this end \[s\].
     fn until(&self, end: f64) -> f64 {
         end
     }
 
-    /// There are no more steps. Breaks off where what is left is not wanted.
+    /// Ends the watch: there are no more steps. Breaks off where what is left is not wanted.
     fn finish(&mut self) -> ControlFlow<()> {
         ControlFlow::Continue(())
     }
@@ -55,5 +55,5 @@ impl StepWatch for Recorder<'_> {
     }
 }
 
-/// What of a motion is asked of whoever drives it: whether it may go on, by the share of the interval that is done.
+/// Question of a motion to whoever drives it: whether it may go on, by the share of the interval that is done.
 pub(crate) type Progress<'a> = &'a mut dyn FnMut(f64) -> ControlFlow<()>;

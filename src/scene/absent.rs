@@ -22,7 +22,7 @@ pub(super) fn empty<T>(parts: &BTreeMap<String, T>) -> bool {
     parts.is_empty() && !WRITTEN_OUT.get()
 }
 
-/// Does something while nothing is left out, such as write a document.
+/// Acts while nothing is left out, such as to write a document.
 pub(super) fn written_out<T>(act: impl FnOnce() -> T) -> T {
     /// Ends it, also where the act panics.
     struct End;

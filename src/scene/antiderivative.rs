@@ -3,7 +3,7 @@
 use super::points::{Cubic, reached};
 use super::time::{Profile, TimeFunction};
 
-/// What the integral of a [`TimeFunction`] needs besides the function itself: of a ramp or a table the integrals from its
+/// Integral of a [`TimeFunction`], with what it needs besides the function itself: of a ramp or a table the integrals from its
 /// first corner to each of them, and to t = 0, of a spline from its first point.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Antiderivative {
@@ -12,7 +12,7 @@ pub(crate) struct Antiderivative {
 }
 
 impl Antiderivative {
-    /// Of a function that has been validated.
+    /// The integral of a function that has been validated.
     pub fn new(of: &TimeFunction) -> Self {
         let mut made = Self::default();
         match of {

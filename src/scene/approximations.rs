@@ -20,12 +20,12 @@ pub struct Approximations {
     /// Rings and balls keep their axial places from the start, all balls of a row the same one: the plane model
     /// of a bearing with a contact angle, for loads along z that do not change.
     pub plane: bool,
-    /// Of two rows, the one that carries less than 2 % of the load at the start is left out, where loads do not change.
+    /// Approximation by one row: of two rows, the one that carries less than 2 % of the load at the start is left out, where loads do not change.
     pub one_row: bool,
 }
 
 impl Approximations {
-    /// None of them.
+    /// No approximation.
     pub const NONE: Self = Self {
         rolling: false,
         plane: false,

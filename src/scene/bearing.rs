@@ -6,7 +6,7 @@ use super::absent;
 use super::ring::Support;
 use super::{Contact, Friction, Lubricant, Material, Texture, defaults};
 
-/// One row of balls between two grooves (geometry of model section 2).
+/// Row of balls between two grooves (geometry of model section 2).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
@@ -108,7 +108,7 @@ impl Row {
         !(profiles || arches || rounded)
     }
 
-    /// Whether its races have waves, or races or balls a texture.
+    /// Whether the row's races have waves, or races or balls a texture.
     pub(crate) fn is_wavy(&self) -> bool {
         let listed = !(self.outer_waviness.is_empty() && self.inner_waviness.is_empty());
         listed || self.texture.is_some()
@@ -173,7 +173,7 @@ pub struct RaceProfile {
 }
 
 impl RaceProfile {
-    /// Through points at axial places `z` with radii `r` \[m\].
+    /// The profile through points at axial places `z` with radii `r` \[m\].
     pub fn new(z: Vec<f64>, r: Vec<f64>) -> Self {
         Self { z, r }
     }
@@ -205,7 +205,7 @@ impl GothicArch {
     }
 }
 
-/// One harmonic of a race's radius: ΔR(φ) = amplitude · cos(order · φ + phase), φ from the ring's own x axis.
+/// Harmonic of a race's radius: ΔR(φ) = amplitude · cos(order · φ + phase), φ from the ring's own x axis.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]

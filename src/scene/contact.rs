@@ -11,7 +11,7 @@ use super::numbers::BoundedNumber;
 pub struct Contact {
     /// Force of a slice from its penetration; Hertz's law by default.
     pub law: NormalLaw,
-    /// Where the ball is cut; 6 fitted nodes by default.
+    /// Slices or nodes into which the ball is cut; 6 fitted nodes by default.
     pub slices: Slices,
     /// Hunt–Crossley damping α_d \[s/m\]: restitution is about 1 − α_d v at an impact speed v.
     pub damping: f64,
@@ -66,7 +66,7 @@ impl NormalLaw {
         }
     }
 
-    /// What it is, in an explanation.
+    /// Description of the law in an explanation.
     pub(crate) fn description(&self) -> &'static str {
         match self {
             Self::Iso16281 { .. } => "roller slices after ISO/TS 16281, the paper's law",
@@ -74,7 +74,7 @@ impl NormalLaw {
         }
     }
 
-    /// Its numbers, each by its path in the law.
+    /// Numbers of the law, each by its path in it.
     pub(super) fn numbers(&self) -> Vec<BoundedNumber> {
         match *self {
             Self::Iso16281 {
@@ -89,7 +89,7 @@ impl NormalLaw {
     }
 }
 
-/// Where a ball is cut.
+/// Cutting of a ball into slices.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
@@ -100,7 +100,7 @@ pub enum Slices {
     /// (root mean square over loads, angles and defects) and friction to 1e-4 μF; where slip changes by more than 70 slip speeds
     /// over half a zone, friction only to some percent.
     Fitted(usize),
-    /// As many fitted nodes as give normal and friction force of rolling balls to this share of the normal force,
+    /// Accuracy of fitted nodes, as many as give normal and friction force of rolling balls to this share of the normal force,
     /// 1e-9 to 1e-1; found for each race when the scene is compiled.
     Accuracy(f64),
 }
@@ -159,7 +159,7 @@ pub(super) fn extreme_slip([a, b, c]: [f64; 3]) -> f64 {
 pub(super) struct FrictionNumbers {
     /// Name in a document.
     pub law: &'static str,
-    /// All but the slip speed.
+    /// Fields of the law but the slip speed.
     pub fields: Vec<(&'static str, f64)>,
     /// Slip speed v_s \[m/s\].
     pub slip_speed: f64,
@@ -231,7 +231,7 @@ impl Cage {
         }
     }
 
-    /// Its numbers.
+    /// Numbers of the damping.
     pub(super) fn numbers(&self) -> [BoundedNumber; 3] {
         // Named one by one, so that the compiler asks about a new field.
         let Self {

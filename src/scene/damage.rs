@@ -11,7 +11,7 @@ use super::numbers::BoundedNumber;
 use super::surface::{AxialOffset, Surface};
 use super::width::{Floor, Width};
 
-/// What has become of a surface.
+/// Damage of a surface.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Damage {
@@ -74,19 +74,19 @@ pub enum Damage {
 /// Size of a dent with its rim over that of the dent.
 pub const RIM: f64 = 1.5;
 
-/// What a kind of damage says of itself.
+/// Description of a kind of damage by itself.
 struct About<'a> {
-    /// What it is called.
+    /// Name of the kind.
     word: &'static str,
     lies: Lies,
-    /// Along rolling \[m\].
+    /// Size along rolling \[m\].
     width: Cow<'a, Width>,
-    /// Along the axis \[m\]; none of what is round.
+    /// Size along the axis \[m\]; none of what is round.
     length: Option<f64>,
-    /// Of its fault circles \[m\]; none of what has none, or not yet.
+    /// Radius of its fault circles \[m\]; none of what has none, or not yet.
     edge_radius: Option<f64>,
     floor: Option<&'a Floor>,
-    /// Of what is smaller than the contacts that meet it: half of its finest length along rolling \[m\].
+    /// Finest length of what is smaller than the contacts that meet it: half of it along rolling \[m\].
     finest: Option<f64>,
     /// Size of all that is not level over its own.
     around: f64,
@@ -97,16 +97,16 @@ struct About<'a> {
 /// How a damage lies on a surface.
 #[derive(PartialEq)]
 enum Lies {
-    /// With its length along the ring's axis, also on a ball.
+    /// Damage that lies with its length along the ring's axis, also on a ball.
     AlongAxis,
-    /// On a race, or fixed in a ball.
+    /// Damage that lies anywhere on a race, or fixed in a ball.
     Anywhere,
     /// Fixed in a ball.
     OnBall,
 }
 
 impl Damage {
-    /// One arm for each kind: what the rest of a scene asks.
+    /// Answers of each kind, one arm for each: what the rest of a scene asks.
     fn about(&self) -> About<'_> {
         let plain = |word, lies, width: f64| About {
             word,
@@ -199,12 +199,12 @@ impl Damage {
         self.about().length
     }
 
-    /// How far it reaches along the axis \[m\]; of a cap its width, which is a little more.
+    /// Extent along the axis \[m\]; of a cap its width, which is a little more.
     pub(crate) fn extent(&self) -> f64 {
         self.length().unwrap_or_else(|| self.width())
     }
 
-    /// How far it reaches along rolling and along the axis, with all that is not level \[m\].
+    /// Extents along rolling and along the axis, with all that is not level \[m\].
     pub(super) fn footprint(&self) -> [f64; 2] {
         [self.width(), self.extent()].map(|size| self.about().around * size)
     }
@@ -215,12 +215,12 @@ impl Damage {
         self.about().finest
     }
 
-    /// Whether it is smaller than the contacts that meet it.
+    /// Whether the damage is smaller than the contacts that meet it.
     pub(crate) fn is_small(&self) -> bool {
         self.finest().is_some()
     }
 
-    /// Whether it has its length along the ring's axis, also on a ball.
+    /// Whether the damage has its length along the ring's axis, also on a ball.
     pub(crate) fn is_patch(&self) -> bool {
         self.about().lies == Lies::AlongAxis
     }
@@ -230,7 +230,7 @@ impl Damage {
         self.about().lies == Lies::OnBall
     }
 
-    /// What it is called.
+    /// Name of the damage's kind.
     pub(crate) fn word(&self) -> &'static str {
         self.about().word
     }
@@ -240,7 +240,7 @@ impl Damage {
         self.about().edge_radius
     }
 
-    /// Its floor.
+    /// Floor of the damage.
     pub(super) fn floor(&self) -> Option<&Floor> {
         self.about().floor
     }
@@ -304,7 +304,7 @@ enum WallsWord {
 pub(super) type Misfit = (&'static str, &'static str);
 
 impl DefectDocument {
-    /// What lies there.
+    /// Damage that lies there.
     pub fn damage(&self) -> Result<Damage, Misfit> {
         let is_dent = matches!(self.shape, Some(ShapeWord::Dent));
         for (field, given) in [("depth", self.depth), ("rim_height", self.rim_height)] {
@@ -394,7 +394,7 @@ impl DefectDocument {
 }
 
 impl DefectDocument {
-    /// Of a place, surface, row, ball, angle and axial place, and what lies there.
+    /// The record of a place, surface, row, ball, angle and axial place, and what lies there.
     pub fn new(place: (Surface, usize, Option<usize>, f64, AxialOffset), damage: &Damage) -> Self {
         let (on, row, ball, angle, axial_offset) = place;
         let (shape, walls) = match damage {

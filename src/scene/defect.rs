@@ -11,7 +11,7 @@ use super::width::Width;
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Defect {
-    /// Which surface.
+    /// Surface on which the defect lies.
     pub on: Surface,
     /// Row, from 0.
     pub row: usize,
@@ -21,7 +21,7 @@ pub struct Defect {
     pub angle: f64,
     /// Axial place of the middle \[m\], from the row's plane (races) or the ball's centre; by default where contacts run.
     pub axial_offset: AxialOffset,
-    /// What lies there. A document has its fields beside those of the place.
+    /// Damage that lies there. A document has its fields beside those of the place.
     pub damage: Damage,
 }
 

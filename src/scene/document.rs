@@ -39,10 +39,10 @@ pub(super) fn at_field<E: serde::de::Error>(field: &str, allowed: &str) -> E {
     E::custom(format!("{MISFIT}{field}`, expected {allowed}"))
 }
 
-/// What such a message begins with.
+/// Beginning of such a message.
 const MISFIT: &str = "misfit of field `";
 
-/// What is wrong, as serde words it, and its place, the innermost segment first.
+/// Misfit of a document, as serde words it, and its place, the innermost segment first.
 #[derive(Debug)]
 struct Misread {
     message: String,
@@ -110,7 +110,7 @@ impl<'de> Reader<'de> {
     }
 }
 
-/// What serde_json reads of a value as well: nothing lies beneath it.
+/// Values that serde_json reads as well: nothing lies beneath them.
 macro_rules! leaf {
     ($($kind:ident)*) => {$(
         fn $kind<V: Visitor<'de>>(self, visitor: V) -> Read<V::Value> {

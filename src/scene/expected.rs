@@ -1,9 +1,9 @@
-//! What is allowed at a place of a document, in terms of the document; serde's messages name Rust types.
+//! Words for what is allowed at a place of a document, in terms of the document; serde's messages name Rust types.
 
 /// The least similarity, by Jaro and Winkler, to an unknown name at which a known one is suggested.
 const LIKE: f64 = 0.8;
 
-/// What is allowed where a message of serde refuses a value; for a missing field the message itself.
+/// Words for what is allowed where a message of serde refuses a value; for a missing field the message itself.
 pub(super) fn allowed(message: &str) -> String {
     if let Some(refused) = message.strip_prefix("unknown field ") {
         let names: Vec<&str> = refused.split('`').skip(1).step_by(2).collect();
@@ -17,7 +17,7 @@ pub(super) fn allowed(message: &str) -> String {
     }
 }
 
-/// For an unknown field: the one that may be meant, and all that exist.
+/// Words for an unknown field: the one that may be meant, and all that exist.
 pub(super) fn no_such_field(name: &str, known: &[&str]) -> String {
     let likeness = |other: &&&str| strsim::jaro_winkler(name, other);
     let perhaps = (known.iter())

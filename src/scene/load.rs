@@ -20,7 +20,7 @@ pub struct Load {
     pub direction: [f64; 3],
     /// Force along the direction \[N\].
     pub force: TimeFunction,
-    /// Where it acts, in the ring's frame, which tilts but does not turn with the ring \[m\]; absent: the ring's origin.
+    /// Place at which the load acts, in the ring's frame, which tilts but does not turn with the ring \[m\]; absent: the ring's origin.
     #[serde(default, skip_serializing_if = "absent::none")]
     pub at: Option<[f64; 3]>,
 }
@@ -103,7 +103,7 @@ impl Unbalance {
         }
     }
 
-    /// Its numbers that are checked by themselves.
+    /// Numbers of the load that are checked by themselves.
     pub(super) fn numbers(&self) -> [BoundedNumber; 2] {
         // Named one by one, so that the compiler asks about a new field.
         let Self {
@@ -119,7 +119,7 @@ impl Unbalance {
     }
 }
 
-/// What turns the inner ring.
+/// Drive of the inner ring.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 #[non_exhaustive]

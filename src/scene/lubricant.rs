@@ -84,12 +84,12 @@ pub struct Lubricant {
 pub enum OilLayer {
     /// A layer of this thickness \[m\], which bounds the film.
     Thickness(f64),
-    /// As much as the film needs.
+    /// Oil as much as the film needs.
     Flooded,
 }
 
 impl OilLayer {
-    /// Its thickness \[m\]; `None` where the contact is flooded.
+    /// Thickness of the layer \[m\]; `None` where the contact is flooded.
     pub fn thickness(self) -> Option<f64> {
         match self {
             Self::Thickness(value) => Some(value),
@@ -108,7 +108,7 @@ impl From<f64> for OilLayer {
 const FLOODED: &str = "flooded";
 
 impl Lubricant {
-    /// Whether it does anything: all of its effects may be left out.
+    /// Whether the oil does anything: all of its effects may be left out.
     pub(crate) fn acts(&self) -> bool {
         self.film || self.damping || self.traction || self.rolling || self.fill > 0.0
     }

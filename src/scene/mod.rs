@@ -73,7 +73,7 @@ pub use oils::{Base, NAMED_OILS, NamedOil, OilSheet, OilSource, Sourced, named_o
 pub use probe::{Component, ContactQuantity, Probe};
 pub use ring::{CoupledSupport, Mount, Ring, RingName, Support};
 pub use ring_force::{RingForce, RingForces, RingMotion};
-/// What [`Scene::with`] sets a field to: a number, a text, a list or a document of JSON.
+/// Value that [`Scene::with`] gives a field: a number, a text, a list or a document of JSON.
 pub use serde_json::Value;
 pub use solver::{Method, Solver};
 pub use spin::Spin;
@@ -123,7 +123,7 @@ pub struct Scene {
     /// Cage; absent: the balls are not linked.
     #[serde(default)]
     pub cage: Option<Cage>,
-    /// What turns the inner ring.
+    /// Drive of the inner ring.
     pub drive: Drive,
     /// Given speed of the outer ring Ω_o(t) \[rad/s\], counter-clockwise about z; must not jump. Its waviness, texture and defects turn
     /// with it; loads, gravity and its support do not. Absent: it stands, or turns as its support lets it.
@@ -243,7 +243,7 @@ impl Scene {
         row.lubricant.as_ref().or(self.lubricant.as_ref())
     }
 
-    /// Where the oil of a row stands in the document.
+    /// Path of the oil of a row in the document.
     pub(crate) fn lubricant_path(&self, row: usize) -> String {
         match self.rows[row].lubricant {
             Some(_) => format!("rows[{row}].lubricant"),

@@ -13,7 +13,7 @@ pub(super) struct BoundedNumber {
 }
 
 impl BoundedNumber {
-    /// One within a range, both ends too.
+    /// A number within a range, both ends too.
     pub fn within(
         field: &'static str,
         value: f64,
@@ -29,10 +29,10 @@ impl BoundedNumber {
     }
 }
 
-/// What is allowed of a number.
+/// Range of numbers that are allowed.
 pub(super) enum NumberRange {
     /// Both ends too.
     Within(RangeInclusive<f64>),
-    /// Above 0, and at most this.
+    /// Numbers above 0, and at most this.
     UpTo(f64),
 }

@@ -65,7 +65,7 @@ impl fmt::Display for Base {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct NamedOil {
-    /// Its name in a document.
+    /// Name of the oil in a document.
     pub name: &'static str,
     /// Kinematic viscosity at 40 °C \[m²/s\].
     pub viscosity_40: f64,
@@ -75,7 +75,7 @@ pub struct NamedOil {
     pub density_15: f64,
     /// Base oil.
     pub base: Base,
-    /// Where its numbers come from.
+    /// Source of the oil's numbers.
     pub source: &'static str,
 }
 
@@ -112,7 +112,7 @@ pub fn named_oil(name: &str) -> Option<&'static NamedOil> {
     NAMED_OILS.iter().find(|oil| oil.name == name)
 }
 
-/// Where a number of an oil comes from.
+/// Source of a number of an oil.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
@@ -120,16 +120,16 @@ pub enum OilSource {
     /// The lubricant gives it.
     #[serde(rename = "given")]
     Given,
-    /// It is that of the named oil.
+    /// Number of the named oil.
     #[serde(rename = "named oil")]
     NamedOil,
-    /// It is that of the base oil.
+    /// Number of the base oil.
     #[serde(rename = "base")]
     Base,
-    /// By viscosity and base oil, after P. W. Gold et al. 2001.
+    /// Number by viscosity and base oil, after P. W. Gold et al. 2001.
     #[serde(rename = "Gold et al. 2001")]
     Gold,
-    /// It is the document's default.
+    /// Default of the document.
     #[serde(rename = "default")]
     Default,
 }
@@ -140,11 +140,11 @@ pub enum OilSource {
 pub struct Sourced {
     /// The number, SI.
     pub value: f64,
-    /// Where it comes from.
+    /// Source of the number.
     pub source: OilSource,
 }
 
-/// What is known of an oil, by name or as given.
+/// Properties of an oil, by name or as given.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct OilSheet {
@@ -162,7 +162,7 @@ pub struct OilSheet {
     pub limiting_stress: Sourced,
 }
 
-/// One mm²/s, in which viscosities stand in ASTM D341 and in Gold's formula \[m²/s\].
+/// Unit of kinematic viscosity, 1 mm²/s, in which viscosities stand in ASTM D341 and in Gold's formula \[m²/s\].
 pub(crate) const CENTISTOKE: f64 = 1e-6;
 /// 40 and 100 °C \[K\].
 const AT_40: f64 = 313.15;
@@ -187,7 +187,7 @@ impl OilSheet {
         [viscosity * CENTISTOKE, steepness]
     }
 
-    /// Where the pressure-viscosity coefficient comes from.
+    /// Source of the pressure-viscosity coefficient.
     pub fn pressure_viscosity_source(&self) -> OilSource {
         match self.pressure_viscosity {
             Some(_) => OilSource::Given,

@@ -142,7 +142,7 @@ fn steps(path: &str) -> Result<Vec<Step<'_>>> {
     Ok(steps)
 }
 
-/// What has become of a name that versions up to 0.3 gave.
+/// Present name of what versions up to 0.3 called otherwise.
 fn renamed(path: &str) -> Option<&'static str> {
     path.starts_with("defects.defect.")
         .then_some("; a defect given alone is named by its shape, such as defects.spall")

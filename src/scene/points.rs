@@ -42,7 +42,7 @@ impl Cubic {
         2.0 * self.c[2] + 6.0 * self.c[3] * (t - self.begins)
     }
 
-    /// From its beginning to a time.
+    /// Integral from the function's beginning to a time.
     pub fn integral(&self, t: f64) -> f64 {
         let (d, [c0, c1, c2, c3]) = (t - self.begins, self.c);
         d * (c0 + d * (c1 / 2.0 + d * (c2 / 3.0 + d * c3 / 4.0)))
@@ -61,7 +61,7 @@ impl Cubic {
     }
 }
 
-/// How many of these times, which do not decrease, lie at or before `t`. Of evenly spaced ones, as most tables have, the
+/// Number of times, which do not decrease, that lie at or before `t`. Of evenly spaced ones, as most tables have, the
 /// place follows from the time itself; of others by bisection.
 pub(super) fn reached(times: &[f64], t: f64) -> usize {
     let (Some(first), Some(last)) = (times.first(), times.last()) else {

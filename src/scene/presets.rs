@@ -103,9 +103,9 @@ pub fn cornering_wheel(lateral: f64) -> Scene {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Arrangement {
-    /// Their lines of contact diverge towards the shaft's axis: stiff against tilting.
+    /// Arrangement whose lines of contact diverge towards the shaft's axis: stiff against tilting.
     BackToBack,
-    /// Their lines of contact converge towards the shaft's axis: compliant with a tilted shaft.
+    /// Arrangement whose lines of contact converge towards the shaft's axis: compliant with a tilted shaft.
     FaceToFace,
 }
 

@@ -1,4 +1,4 @@
-//! What a run records. A probe's columns are named after it: probe `outer` of a motion gives `outer.ay`.
+//! Probes: what a run records. A probe's columns are named after it: probe `outer` of a motion gives `outer.ay`.
 //!
 //! Motion, cage forces and friction torques are signals, filtered before they are sampled unless a run's bandwidth is
 //! [`Raw`](crate::Bandwidth::Raw). Contacts, energies, films, moments, forces by origin and slices are values of a state: always points.
@@ -17,7 +17,7 @@ pub enum Probe {
     Motion {
         /// `outer`, `inner` or a ball such as `row0.ball3`.
         body: String,
-        /// Which of them; absent: the twelve of every body, for a ring that may tilt also those of its tilts, for a ball
+        /// Components to record; absent: the twelve of every body, for a ring that may tilt also those of its tilts, for a ball
         /// that spins freely also those about x and y.
         #[serde(default)]
         components: Option<Vec<Component>>,
@@ -33,7 +33,7 @@ pub enum Probe {
         /// Races; absent: both.
         #[serde(default)]
         races: Option<Vec<RingName>>,
-        /// Which quantities; absent: all.
+        /// Quantities to record; absent: all.
         #[serde(default)]
         quantities: Option<Vec<ContactQuantity>>,
     },
@@ -80,7 +80,7 @@ pub enum Probe {
     },
 }
 
-/// One component of a motion.
+/// Component of a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
@@ -121,9 +121,9 @@ pub enum Component {
     TiltAx,
     /// Acceleration of the tilt about y \[rad/s²\].
     TiltAy,
-    /// Of a ball that spins freely, the integral of ω_x over time \[rad\].
+    /// Integral of ω_x over time of a ball that spins freely \[rad\].
     TurnX,
-    /// Of a ball that spins freely, the integral of ω_y over time \[rad\].
+    /// Integral of ω_y over time of a ball that spins freely \[rad\].
     TurnY,
     /// Angular velocity about x of a ball that spins freely \[rad/s\].
     OmegaX,
@@ -152,7 +152,7 @@ impl Component {
         Self::Alpha,
     ];
 
-    /// Those that a ring that may tilt has in addition.
+    /// Components that a ring that may tilt has in addition.
     pub const OF_TILTS: [Self; 6] = [
         Self::TiltX,
         Self::TiltY,
@@ -162,7 +162,7 @@ impl Component {
         Self::TiltAy,
     ];
 
-    /// Those that a ball that spins freely has in addition.
+    /// Components that a ball that spins freely has in addition.
     pub const OF_TURNS: [Self; 6] = [
         Self::TurnX,
         Self::TurnY,
@@ -172,7 +172,7 @@ impl Component {
         Self::AlphaY,
     ];
 
-    /// That of a direction and a derivative: 0 for a place, 1 for a speed, 2 for an acceleration.
+    /// The component of a direction and a derivative: 0 for a place, 1 for a speed, 2 for an acceleration.
     pub(crate) fn of(direction: usize, derivative: usize) -> Self {
         match direction {
             0..4 => Self::ALL[4 * derivative + direction],
@@ -231,7 +231,7 @@ impl Component {
     }
 }
 
-/// One quantity of a contact.
+/// Quantity of a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
@@ -249,7 +249,7 @@ pub enum ContactQuantity {
 }
 
 impl ContactQuantity {
-    /// All five.
+    /// Quantities of contacts, in their order.
     pub const ALL: [Self; 5] = every!(ContactQuantity: Load, Angle, ZoneCentre, ZoneWidth, Slip);
 
     /// Name as in columns, and unit.

@@ -1,4 +1,4 @@
-//! What can move, and what a run records by default.
+//! Bodies that can move, and what a run records by default.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;

@@ -40,7 +40,7 @@ pub struct Ring {
 }
 
 impl Ring {
-    /// Its numbers that are checked by themselves, where they are given.
+    /// Numbers of the ring that are checked by themselves, where they are given.
     pub(super) fn numbers(&self) -> impl Iterator<Item = BoundedNumber> + use<> {
         // Named one by one, so that the compiler asks about a new field.
         let Self {
@@ -76,16 +76,16 @@ impl Ring {
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct Support {
-    /// Along x.
+    /// Mount along x.
     #[serde(default)]
     pub x: Option<Mount>,
-    /// Along y.
+    /// Mount along y.
     #[serde(default)]
     pub y: Option<Mount>,
-    /// Along z.
+    /// Mount along z.
     #[serde(default)]
     pub z: Option<Mount>,
-    /// About z; absent for a ring whose speed is given.
+    /// Mount about z; absent for a ring whose speed is given.
     #[serde(default)]
     pub theta: Option<Mount>,
     /// Tilt about x; rings only.
@@ -99,7 +99,7 @@ pub struct Support {
     pub coupled: Option<Box<CoupledSupport>>,
 }
 
-/// One direction of a support.
+/// Mount of a ring in one direction.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 #[non_exhaustive]
@@ -157,7 +157,7 @@ impl Support {
         }
     }
 
-    /// From the mounts along x, y and z and about z.
+    /// The support of the mounts along x, y and z and about z.
     pub fn new([x, y, z, theta]: [Option<Mount>; 4]) -> Self {
         Self {
             x,
@@ -206,7 +206,7 @@ impl CoupledSupport {
     }
 }
 
-/// Which ring.
+/// Name of a ring.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]

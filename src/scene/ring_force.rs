@@ -8,7 +8,7 @@ use serde::{Serialize, Serializer};
 
 use super::RingName;
 
-/// Where a ring is and how it moves, in the scene's frame.
+/// Place and motion of a ring, in the scene's frame.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[non_exhaustive]
 pub struct RingMotion {
@@ -91,12 +91,12 @@ pub trait RingForce: Debug + Send + Sync {
         0.0
     }
 
-    /// Its largest force in the plane of x and y, and along z \[N\], from which scales of the contacts are estimated.
+    /// Largest force in the plane of x and y, and along z \[N\], from which scales of the contacts are estimated.
     fn peak(&self) -> [f64; 2] {
         [0.0; 2]
     }
 
-    /// Whether it neither acts along z nor tilts the ring, so that a run may leave these directions out.
+    /// Whether the force neither acts along z nor tilts the ring, so that a run may leave these directions out.
     fn keeps_plane(&self) -> bool {
         false
     }
@@ -125,7 +125,7 @@ impl RingForces {
         )
     }
 
-    /// Whether there is none.
+    /// Whether there is no force.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }

@@ -19,7 +19,7 @@ pub enum Method {
     Verner,
 }
 
-/// As documents name it.
+/// Name of the method as documents have it.
 ///
 /// ```
 /// assert_eq!(ballrace::scene::Method::DormandPrince.to_string(), "dormand-prince");

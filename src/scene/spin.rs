@@ -13,10 +13,10 @@ use super::Scene;
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Spin {
-    /// About the bearing's axis, at contacts with a ring that tilts about that ring's axis: one state for each ball.
+    /// Spin about the bearing's axis, at contacts with a ring that tilts about that ring's axis: one state for each ball.
     #[default]
     Axial,
-    /// About any axis: the angular velocity is a vector, three states for each ball.
+    /// Spin about any axis: the angular velocity is a vector, three states for each ball.
     Free,
 }
 

@@ -1,4 +1,4 @@
-//! Where a defect lies: on which surface, and at which place along the axis.
+//! Surface of a defect, and its place along the axis.
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
@@ -21,9 +21,9 @@ pub enum Surface {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub enum AxialOffset {
-    /// From the row's plane (races) or the ball's centre \[m\].
+    /// Offset from the row's plane (races) or the ball's centre \[m\].
     At(f64),
-    /// Where the most loaded of the contacts runs that meet the defect over a turn of the balls, at the static equilibrium of the
+    /// Offset at which the most loaded of the contacts runs that meet the defect over a turn of the balls, at the static equilibrium of the
     /// healthy bearing under the largest value of every load: on the outer race that of a ball at the defect's own angle, on a
     /// ball that with the race that loads it more. Without equilibrium or load it is the place of the nominal contact
     /// angle. A run records the number, rounded to nanometres.

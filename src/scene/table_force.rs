@@ -34,7 +34,7 @@ pub struct TableForce {
 }
 
 impl TableForce {
-    /// Without damping.
+    /// The table without damping.
     pub fn new(
         ring: RingName,
         direction: [f64; 3],
@@ -114,7 +114,7 @@ impl RingForce for TableForce {
         self.work(0.0) - self.work(along(self.unit(), ring.place))
     }
 
-    /// At the scene's place of the ring.
+    /// Peak at the scene's place of the ring.
     fn peak(&self) -> [f64; 2] {
         let [x, y, z] = self.unit();
         let force = self.force(0.0).abs();

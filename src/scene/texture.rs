@@ -57,7 +57,7 @@ impl Texture {
     /// The order at which amplitudes are given.
     const AT: f64 = 30.0;
 
-    /// On both races alike, with an amplitude at order 30 \[m\], all else by default.
+    /// The texture of both races alike, with an amplitude at order 30 \[m\], all else by default.
     pub fn of_races(amplitude: f64) -> Self {
         Self {
             outer: amplitude,

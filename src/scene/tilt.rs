@@ -10,14 +10,14 @@ impl Support {
         [&self.tilt_x, &self.tilt_y].map(|mount| mount.clone().unwrap_or(Mount::Fixed))
     }
 
-    /// Whether it says anything of tilts or couples directions.
+    /// Whether the support says anything of tilts or couples directions.
     pub(super) fn is_spatial(&self) -> bool {
         self.tilt_x.is_some() || self.tilt_y.is_some() || self.coupled.is_some()
     }
 }
 
 impl Ring {
-    /// Whether it has tilts: one from the start, a free or sprung one, or one that its support couples with other directions.
+    /// Whether the ring has tilts: one from the start, a free or sprung one, or one that its support couples with other directions.
     pub(crate) fn tilts(&self) -> bool {
         let support = &self.support;
         self.tilt.is_some_and(|tilt| tilt != [0.0; 2])

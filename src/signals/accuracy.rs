@@ -1,8 +1,8 @@
-//! What a run reports of the requested accuracy.
+//! Report of a run on the requested accuracy.
 
 use serde::{Deserialize, Serialize};
 
-/// What a run with a requested accuracy chose, and what it expects of that; errors that are larger together are warned of.
+/// Choice of a run with a requested accuracy, and what it expects of that; errors that are larger together are warned of.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Accuracy {

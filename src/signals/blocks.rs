@@ -14,7 +14,7 @@ use crate::base::words::{Remembered, Words};
 const MOST: usize = 1 << 16;
 /// Samples of a block at least, well above those that the filter still works on.
 const LEAST: usize = 256;
-/// What a block takes as far as that allows \[bytes\].
+/// Size of a block as far as that allows \[bytes\].
 const SIZE: usize = 16 << 20;
 
 /// Consecutive samples of a record, which are what they are in a record that is kept whole.
@@ -30,13 +30,13 @@ pub struct Block {
 /// Takes the blocks of a record in their order, and may stop the run.
 pub(crate) type BlockSink<'a> = &'a mut (dyn FnMut(Block) -> ControlFlow<()> + Send + 'a);
 
-/// What becomes of the samples of a record.
+/// Handling of the samples of a record.
 pub(crate) enum Keep<'a> {
-    /// All of them stay.
+    /// Samples that all stay.
     All,
-    /// They leave block by block.
+    /// Samples that leave block by block.
     Left(BlockSink<'a>),
-    /// They stay until they are taken.
+    /// Samples that stay until they are taken.
     Taken,
 }
 
@@ -72,7 +72,7 @@ pub(crate) struct Held<'a> {
 }
 
 impl<'a> Held<'a> {
-    /// Of `count` samples.
+    /// The blocks of `count` samples.
     pub fn new(columns: Vec<Column>, count: usize, keep: Keep<'a>) -> Self {
         Self {
             count,
@@ -114,7 +114,7 @@ impl<'a> Held<'a> {
         all.try_for_each(|values| values.try_reserve_exact(rows))
     }
 
-    /// Has zeros stand in some columns where sums are to grow: at the samples before `end`, or at all where all are kept.
+    /// Opens the blocks: zeros stand in some columns where sums are to grow, at the samples before `end`, or at all where all are kept.
     pub fn open(&mut self, columns: &[usize], end: usize) {
         let end = if self.keep.is_all() { self.count } else { end };
         let rows = end.min(self.count).saturating_sub(self.first);

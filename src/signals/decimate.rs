@@ -53,7 +53,7 @@ impl Decimator {
         self.taps.finished(self.next)
     }
 
-    /// So many samples have left the columns.
+    /// Drops so many samples that have left the columns.
     pub fn drop_samples(&mut self, count: usize) {
         self.row0 += self.taps.points(count);
     }
@@ -164,7 +164,7 @@ mod tests {
         [out.pop().unwrap().values, slope]
     }
 
-    /// With data on both sides of all samples.
+    /// Record with data on both sides of all samples.
     fn whole(x: impl Fn(f64) -> f64) -> [Vec<f64>; 2] {
         let reach = Taps::new(OVER, FS).reach();
         decimated(x, -reach, signed((COUNT - 1) * OVER) + reach)

@@ -21,12 +21,12 @@ const PIECES: usize = 8;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Demand {
     pub columns: usize,
-    /// At most: slices that do not touch are not listed.
+    /// Number of slices at most: slices that do not touch are not listed.
     pub slices: usize,
 }
 
 impl Demand {
-    /// Of a valid scene.
+    /// The demand of a valid scene.
     pub fn of(scene: &Scene) -> Self {
         let nodes = |row: usize| match scene.contact_of(&scene.rows[row]).slices {
             Slices::Fixed(count) => count,

@@ -40,7 +40,7 @@ pub(super) struct Taps {
 }
 
 impl Taps {
-    /// For `oversampling` points of the grid a sample, at least two, and samples at `fs` \[Hz\].
+    /// The filter for `oversampling` points of the grid a sample, at least two, and samples at `fs` \[Hz\].
     pub fn new(oversampling: usize, fs: f64) -> Self {
         let reach = (HALF * oversampling - 1) as f64;
         let (mut smooth, mut slope) = (Vec::new(), Vec::new());
@@ -175,7 +175,7 @@ mod tests {
 
     const TAU: f64 = 2.0 * PI;
 
-    /// From the middle outwards: point of the grid, coefficient.
+    /// Coefficients of SciPy from the middle outwards: point of the grid, coefficient.
     const SCIPY: [(usize, f64); 6] = [
         (0, 0.333_333_642_334_819_55),
         (1, 0.275_027_379_436_492_4),

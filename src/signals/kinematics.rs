@@ -23,17 +23,17 @@ use crate::statics::{RaceControl, Spacing, in_motion, steady::keep, steady::orbi
 pub struct RowKinematics {
     /// Row, from 0.
     pub row: usize,
-    /// Of the inner ring.
+    /// Rate of the inner ring.
     pub inner: f64,
-    /// Of the outer ring.
+    /// Rate of the outer ring.
     pub outer: f64,
-    /// Of the balls around the axis: FTF, that of a cage. The mean over all balls of the row: as many of them pass an unloaded
+    /// Rate of the balls around the axis: FTF, that of a cage. The mean over all balls of the row: as many of them pass an unloaded
     /// place of a race as a loaded one.
     pub cage: f64,
-    /// Of a ball about its own axis against the cage: BSF, or BSF/cos α of balls that spin about the bearing's axis only. Absent
+    /// Rate of a ball about its own axis against the cage: BSF, or BSF/cos α of balls that spin about the bearing's axis only. Absent
     /// where all balls of the row have a defect that tumbles.
     pub spin: Option<f64>,
-    /// What [`Self::cage`] would be of balls that roll at the contact angles of the static equilibrium; absent where there is
+    /// Value of [`Self::cage`] for balls that roll at the contact angles of the static equilibrium; absent where there is
     /// none, where nothing loads the row at rest, or where the speed of a ring changes.
     pub rolling: Option<f64>,
 }
@@ -73,7 +73,7 @@ const TURNS: f64 = 1.0;
 pub(crate) struct Orbits {
     /// States of all bodies.
     y: Vec<f64>,
-    /// When to look again \[s\].
+    /// Time of the next look \[s\].
     next: f64,
     /// Times of the first and the last look \[s\].
     times: Option<[f64; 2]>,
@@ -84,16 +84,16 @@ pub(crate) struct Orbits {
 
 #[derive(Clone, Copy, Default)]
 struct BallCourse {
-    /// Where it was seen last, and how far it has come since the first look \[rad\].
+    /// Direction in which it was seen last, and how far it has come since the first look \[rad\].
     direction: f64,
     advance: f64,
-    /// How fast it turned against the cage, and how far it has \[rad/s, rad\]; absent of one that tumbles.
+    /// Rate at which the ball turned against the cage, and how far it has \[rad/s, rad\]; absent of one that tumbles.
     spin: Option<f64>,
     turned: f64,
 }
 
 impl Orbits {
-    /// For a run from a state of all bodies.
+    /// Prepares for a run from a state of all bodies.
     pub fn prepare(&mut self, start: &[f64]) {
         self.y = start.to_vec();
     }
@@ -140,7 +140,7 @@ impl Orbits {
         self.next = t + (APART / fastest).min(LONGEST);
     }
 
-    /// What the rows did whose balls drive at the end of the run; empty of a run of less than a turn.
+    /// Kinematics of the rows whose balls drive at the end of the run; empty of a run of less than a turn.
     pub fn results(&self, model: &Model) -> Vec<RowKinematics> {
         let Some([first, last]) = self.times else {
             return Vec::new();

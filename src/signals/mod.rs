@@ -41,7 +41,7 @@ pub use sampling::Bandwidth;
 pub(crate) use sampling::Sampling;
 pub use warning::Warning;
 
-/// What a run gives.
+/// Results of a run.
 #[derive(Debug, Clone, Serialize)]
 #[non_exhaustive]
 pub struct Signals {
@@ -58,7 +58,7 @@ pub struct Signals {
     pub end_state: Vec<f64>,
     /// Effort of the integrator.
     pub stats: Statistics,
-    /// What produced the signals.
+    /// Origin of the signals.
     pub provenance: Provenance,
     /// The scene.
     pub scene: Scene,
@@ -86,7 +86,7 @@ pub struct Statistics {
     pub nfev: usize,
     /// Smallest accepted step \[s\], not counting steps shortened to land on a breakpoint; absent without any.
     pub smallest_step: Option<f64>,
-    /// Where it began \[s\].
+    /// Time at which the smallest step began \[s\].
     pub smallest_step_time: Option<f64>,
     /// Largest accepted step \[s\].
     pub largest_step: f64,
@@ -127,7 +127,7 @@ pub struct Statistics {
 }
 
 impl Statistics {
-    /// Of a run that went on from here with another scene.
+    /// Statistics of a run that went on from here with another scene.
     #[must_use]
     pub(crate) fn and(self, next: &Self) -> Self {
         let accepted = self.accepted + next.accepted;
@@ -160,7 +160,7 @@ impl Statistics {
     }
 }
 
-/// What produced the signals.
+/// Origin of signals: version, scene, options, machine.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Provenance {
@@ -172,11 +172,11 @@ pub struct Provenance {
     pub method: String,
     /// Relative tolerance.
     pub rtol: f64,
-    /// What a requested accuracy chose, where one was.
+    /// Choice for a requested accuracy, where there was one.
     pub accuracy: Option<Accuracy>,
     /// Step cap \[s\]; absent: none.
     pub max_step: Option<f64>,
-    /// How it began.
+    /// Start of the run.
     pub start: &'static str,
     /// Simulated time \[s\].
     pub duration: f64,
@@ -184,11 +184,11 @@ pub struct Provenance {
     pub threads: usize,
     /// States that were integrated.
     pub states: usize,
-    /// What was left out since it does not change the motion.
+    /// Parts that were left out since they do not change the motion.
     pub left_out: Vec<Omission>,
     /// The instruction set.
     pub simd: &'static str,
-    /// What was wrong with the instruction set that would have been used; absent where nothing was.
+    /// Fault of the instruction set that would have been used; absent where there was none.
     pub distrust: Option<Distrust>,
     /// Processor architecture.
     pub architecture: &'static str,
@@ -199,7 +199,7 @@ pub struct Provenance {
     pub oversampling: usize,
     /// Time before t = 0 in which the start settled \[s\]; 0: not at all.
     pub settled: f64,
-    /// What became of the defects that have a width.
+    /// Record of the defects that have a width.
     pub defects: Vec<Touched>,
     /// Mean speeds of the loaded rows; empty of a run of less than a turn of the inner ring.
     pub kinematics: Vec<RowKinematics>,
@@ -209,7 +209,7 @@ pub struct Provenance {
     pub step_limit: f64,
 }
 
-/// One signal.
+/// A signal with its name and unit.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Column {

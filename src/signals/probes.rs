@@ -52,10 +52,10 @@ pub(super) struct Listing {
     pub contacts: Vec<(usize, Race)>,
 }
 
-/// All probes of a scene.
+/// Readers of all probes of a scene.
 #[derive(Default)]
 pub(super) struct Probes {
-    /// What is read, each with how many columns it has.
+    /// Readers, each with how many columns it has.
     pub readers: Vec<(ProbeReader, usize)>,
     pub columns: Vec<Column>,
     /// Latest first.
@@ -212,7 +212,7 @@ impl Probes {
 }
 
 impl ProbeReader {
-    /// Whether its columns are signals, which are filtered, rather than readings of a state.
+    /// Whether the probe's columns are signals, which are filtered, rather than readings of a state.
     pub fn is_signal(&self) -> bool {
         matches!(self, Self::Motion { .. } | Self::Cage { .. } | Self::Torque)
     }
@@ -279,7 +279,7 @@ impl ProbeReader {
     }
 }
 
-/// What a motion's components are of, by [`Component::direction`].
+/// Directions of a motion's components, by [`Component::direction`].
 const DIRECTIONS: [Dof; 8] = [
     Dof::X,
     Dof::Y,

@@ -18,7 +18,7 @@ use crate::signals::kinematics::Orbits;
 use crate::signals::residual::AccelerationResidual;
 use crate::signals::touched::DefectWatch;
 
-/// What is read at one kind of times: some readers, and the columns that theirs are.
+/// Reading at one kind of times: some readers, and the columns that theirs are.
 #[derive(Default)]
 struct Reading {
     readers: Vec<ProbeReader>,
@@ -31,9 +31,9 @@ struct Reading {
 /// Times may begin before 0: what is read there only feeds the filter.
 pub(crate) struct Recorder<'s> {
     sampling: Sampling,
-    /// What is read at the samples' times.
+    /// Reading at the samples' times.
     points: Reading,
-    /// What is read on the grid, and the filter from there to the samples.
+    /// Reading on the grid, and the filter from there to the samples.
     grid: Option<(Reading, Decimator)>,
     /// The next point of the grid; 0 stands at t = 0.
     next: i64,
@@ -41,12 +41,12 @@ pub(crate) struct Recorder<'s> {
     needs_rhs: bool,
     /// Whether accelerations are recorded at all, so that they are judged.
     judges: bool,
-    /// Whether it has to be on the grid.
+    /// Whether the right-hand side is needed on the grid.
     needs_rhs_on_grid: bool,
     listings: Vec<super::probes::Listing>,
     /// The run's own states at a sample, and their rates.
     own: (Vec<f64>, Vec<f64>),
-    /// Those of all bodies.
+    /// States of all bodies.
     y: Vec<f64>,
     dy: Vec<f64>,
     pub residual: AccelerationResidual,
@@ -57,7 +57,7 @@ pub(crate) struct Recorder<'s> {
 }
 
 impl<'s> Recorder<'s> {
-    /// For `count` samples, kept in some way.
+    /// The recorder for `count` samples, kept in some way.
     pub fn new(model: &Model, sampling: Sampling, count: usize, keep: Keep<'s>) -> Self {
         let filtered = sampling.oversampling > 1;
         let probes = Probes::new(model);
@@ -102,7 +102,7 @@ impl<'s> Recorder<'s> {
         }
     }
 
-    /// Until when a run of a duration is to be followed \[s\].
+    /// Time until which a run of a duration is to be followed \[s\].
     pub fn until(&self, duration: f64) -> f64 {
         match self.grid {
             Some(_) => self.sampling.until(duration),
@@ -133,7 +133,7 @@ impl<'s> Recorder<'s> {
         Ok(())
     }
 
-    /// Has sums stand ready for all samples that a point of the grid until `t` counts for.
+    /// Opens sums for all samples that a point of the grid until `t` counts for.
     fn open(&mut self, t: f64) {
         if let Some((reading, _)) = &self.grid {
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
@@ -161,7 +161,7 @@ impl<'s> Recorder<'s> {
         self.list(dynamics, t, |_, _| {});
     }
 
-    /// All samples within an accepted step and until a time \[s\]; for the rest of it, it is called again. Breaks off where a block was
+    /// Records all samples within an accepted step and until a time \[s\]; for the rest of it, it is called again. Breaks off where a block was
     /// taken with the wish to.
     pub fn step(
         &mut self,

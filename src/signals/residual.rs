@@ -51,7 +51,7 @@ pub(crate) struct AccelerationResidual {
 }
 
 impl AccelerationResidual {
-    /// Of a record that is filtered down to a sampling rate \[Hz\], or not filtered.
+    /// The residual of a record that is filtered down to a sampling rate \[Hz\], or not filtered.
     pub fn new(dynamics: &Dynamics<'_>, filtered: Option<f64>) -> Self {
         let model = dynamics.model();
         let band = filtered.filter(|_| model.scene.solver.rtol <= HOLDS_VELOCITIES);

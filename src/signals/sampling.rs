@@ -21,7 +21,7 @@ pub enum Bandwidth {
     /// down beyond 0.6 fs, without delay. What jumps rings for some samples before and after, as in any such record.
     #[default]
     Auto,
-    /// All columns are point samples of the dense output, folded as they may be: for those who study the integrator.
+    /// Point samples of the dense output in all columns, folded as they may be: for those who study the integrator.
     Raw,
 }
 
@@ -37,7 +37,7 @@ pub(crate) struct Sampling {
 }
 
 impl Sampling {
-    /// For contacts of an angular frequency of at most `frequency` \[rad/s\].
+    /// The sampling for contacts of an angular frequency of at most `frequency` \[rad/s\].
     ///
     /// # Errors
     /// [`Error::Scene`] where a sample would take too many points.
@@ -61,7 +61,7 @@ impl Sampling {
         Ok(Self::again(bandwidth, fs, oversampling))
     }
 
-    /// Of a run that goes on, with so many points a sample.
+    /// The sampling of a run that goes on, with so many points a sample.
     pub fn again(bandwidth: Bandwidth, fs: f64, oversampling: usize) -> Self {
         // A small whole number.
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
@@ -94,7 +94,7 @@ impl Sampling {
         count
     }
 
-    /// Until when a run of a duration is followed, for what its last samples take from beyond the end \[s\].
+    /// Time until which a run of a duration is followed, for what its last samples take from beyond the end \[s\].
     pub fn until(&self, duration: f64) -> f64 {
         if self.oversampling > 1 {
             duration + (HALF as f64 / self.fs).min(PAST_END * duration)

@@ -1,4 +1,4 @@
-//! Which defects balls met in a run: how often they passed, and the loads of their contacts there.
+//! Defects that balls met in a run: how often they passed, and the loads of their contacts there.
 //!
 //! A *pass* is the time that a ball's contact takes over the arc of a defect; it counts as soon as the contact touches
 //! the defect, or else when the ball has left it: a run that ends earlier does not count it. Positions are checked after accepted steps,
@@ -18,33 +18,33 @@ use crate::integrate::DenseStep;
 use crate::model::{Model, Placed, Race, ball_defect, race_defect};
 use crate::scene::{Defect, Doubt, Scene, Surface};
 
-/// What became of a defect.
+/// Record of a defect: its place, and what met it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Touched {
     /// Name of the defect.
     pub name: String,
-    /// Which surface.
+    /// Surface on which the defect lies.
     pub on: Surface,
     /// Axial place of its middle, from the row's plane (races) or the ball's centre \[m\].
     pub axial_offset: f64,
-    /// Where that number comes from.
+    /// Origin of that number.
     pub placed: Placed,
     /// How often a ball came by: a contact of the race, or one of the ball's two contacts, passed over its arc. One that
     /// had touched nothing and was still over it when the run ended is not counted.
     pub passes: usize,
-    /// In how many of these a contact was loaded within its length.
+    /// Number of these passes in which a contact was loaded within the defect's length.
     pub touched: usize,
     /// Largest normal force of a contact within its length, to about a percent \[N\].
     pub largest_load: f64,
-    /// Where the most loaded contact ran that passed, measured as `axial_offset` \[m\]; absent without load.
+    /// Place at which the most loaded contact ran that passed, measured as `axial_offset` \[m\]; absent without load.
     pub contact_offset: Option<f64>,
-    /// How wide that contact was along rolling, 2b of Hertz's ellipse \[m\]; absent without load.
+    /// Width of that contact along rolling, 2b of Hertz's ellipse \[m\]; absent without load.
     pub contact_width: Option<f64>,
 }
 
 impl Touched {
-    /// For a defect of a compiled scene that nothing has met.
+    /// The record of a defect of a compiled scene that nothing has met.
     pub(crate) fn not_yet(name: &str, defect: &Defect, placed: Placed) -> Self {
         Self {
             name: name.to_owned(),
@@ -59,7 +59,7 @@ impl Touched {
         }
     }
 
-    /// With the most loaded contact that met it, if any, of a defect whose axial place is measured from `origin` \[m\].
+    /// The record with the most loaded contact that met the defect, if any, whose axial place is measured from `origin` \[m\].
     pub(crate) fn met(
         mut self,
         model: &Model,
@@ -76,7 +76,7 @@ impl Touched {
         self
     }
 
-    /// Of a defect that is narrower than the contacts that meet it and is not a pit (model section 15.4).
+    /// Doubt about a defect that is narrower than the contacts that meet it and is not a pit (model section 15.4).
     pub(crate) fn doubt(&self, scene: &Scene) -> Option<Doubt> {
         let defect = &scene.defects[&self.name];
         let (width, contact) = (defect.damage.width(), self.contact_width?);
@@ -120,7 +120,7 @@ pub(crate) struct DefectWatch {
     defects: Vec<Watched>,
     /// States of all bodies.
     y: Vec<f64>,
-    /// When to look again \[s\].
+    /// Time of the next look \[s\].
     next: f64,
 }
 
@@ -129,9 +129,9 @@ struct Watched {
     name: String,
     shape: SurfaceDefect,
     on: Surface,
-    /// From where its axial place is measured, in the frame of its body \[m\].
+    /// Origin from which its axial place is measured, in the frame of its body \[m\].
     origin: f64,
-    /// Whether its contacts are evaluated in the run.
+    /// Whether the defect's contacts are evaluated in the run.
     felt: bool,
     /// Outer and inner race, to be looked at with few slices; they have all defects of the row, which share them.
     pairs: Arc<[Pair; 2]>,
@@ -169,7 +169,7 @@ struct WatchedContact {
     /// Ball among all balls.
     ball: usize,
     race: Race,
-    /// How far its direction was from the defect's when last looked at \[rad\]; NaN before.
+    /// Angle between its direction and the defect's when last looked at \[rad\]; NaN before.
     aside: f64,
     pass: Pass,
 }
@@ -183,16 +183,16 @@ enum Pass {
 
 /// How a contact stands to a defect.
 struct DefectView {
-    /// How far its direction is from the defect's \[rad\].
+    /// Angle between its direction and the defect's \[rad\].
     aside: f64,
-    /// How fast that changes \[rad/s\].
+    /// Rate of that angle \[rad/s\].
     rate: f64,
     /// Half of the angle over which it meets the defect \[rad\].
     half: f64,
 }
 
 impl DefectWatch {
-    /// For a run of a model that has begun nowhere yet.
+    /// The watch of a run of a model that has begun nowhere yet.
     pub fn new(model: &Model) -> Self {
         let defects = model.scene().defects.iter();
         let mut pairs = BTreeMap::new();
@@ -206,7 +206,7 @@ impl DefectWatch {
         }
     }
 
-    /// For a run from a state of all bodies.
+    /// Prepares for a run from a state of all bodies.
     pub fn prepare(&mut self, dynamics: &Dynamics<'_>, start: &[f64]) {
         self.y = start.to_vec();
         for defect in &mut self.defects {
@@ -243,7 +243,7 @@ impl DefectWatch {
         self.next = t + waits.fold(f64::INFINITY, f64::min).min(LONGEST);
     }
 
-    /// What became of the defects, given where they were placed.
+    /// Records of the defects, given where they were placed.
     pub fn results(&self, model: &Model, placed: &BTreeMap<String, Placed>) -> Vec<Touched> {
         let of = |watched: &Watched| {
             let defect = &model.scene().defects[&watched.name];

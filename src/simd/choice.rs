@@ -1,4 +1,4 @@
-//! Which instruction set a process uses: the widest that exists, or the requested one, if it computes correctly.
+//! Choice of the instruction set of a process: the widest that exists, or the requested one, if it computes correctly.
 
 use std::ffi::OsStr;
 use std::sync::OnceLock;
@@ -15,9 +15,9 @@ const VARIABLE: &str = "BALLRACE_SIMD";
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct UnknownInstructionSet {
-    /// What was asked for.
+    /// Requested value.
     pub value: String,
-    /// What there is.
+    /// Sets that there are.
     pub available: Vec<&'static str>,
 }
 
@@ -62,7 +62,7 @@ impl InstructionSet {
         Self::choice().clone().map(|(instructions, _)| instructions)
     }
 
-    /// What was wrong with the instruction set that this process would have used, if anything: its primitives are compared with
+    /// Fault of the instruction set that this process would have used, if any: its primitives are compared with
     /// the same on single numbers once, at first use.
     pub fn distrust() -> Option<Distrust> {
         Self::choice()

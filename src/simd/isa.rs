@@ -1,4 +1,4 @@
-//! One program for three instruction sets.
+//! Instruction sets: one program for three of them.
 
 use std::fmt;
 
@@ -14,7 +14,7 @@ pub struct InstructionSet(Level);
 /// The proof that a processor has the instructions goes with each.
 #[derive(Debug, Clone, Copy)]
 enum Level {
-    /// What every processor of the architecture has (SSE2, NEON).
+    /// Set that every processor of the architecture has (SSE2, NEON).
     Baseline,
     /// AVX2 and FMA.
     #[cfg(target_arch = "x86_64")]
@@ -28,15 +28,15 @@ enum Level {
 pub(crate) trait Task {
     type Output;
 
-    /// Does it; `FMA` says whether fused products are instructions. Wants `#[inline(always)]`.
+    /// Runs the task; `FMA` says whether fused products are instructions. Wants `#[inline(always)]`.
     fn run<const FMA: bool>(self) -> Self::Output;
 }
 
 impl InstructionSet {
-    /// What every processor of the architecture has.
+    /// Set that every processor of the architecture has.
     pub const BASELINE: Self = Self(Level::Baseline);
 
-    /// All levels of this processor, widest first.
+    /// Levels of this processor, widest first.
     pub fn available() -> Vec<Self> {
         #[cfg(target_arch = "x86_64")]
         {
@@ -60,7 +60,7 @@ impl InstructionSet {
         }
     }
 
-    /// Its name, as the environment variable takes it.
+    /// Name of the set, as the environment variable takes it.
     pub fn name(&self) -> &'static str {
         match self.0 {
             Level::Baseline => "baseline",
@@ -71,7 +71,7 @@ impl InstructionSet {
         }
     }
 
-    /// Does a task with the instructions of this set.
+    /// Runs a task with the instructions of this set.
     #[inline]
     pub(crate) fn run<T: Task>(self, task: T) -> T::Output {
         match self.0 {
@@ -92,7 +92,7 @@ impl InstructionSet {
         self.run_wide(CountLanes)
     }
 
-    /// This set, or one whose registers so many numbers fill.
+    /// Set whose registers so many numbers fill: this one or a narrower one.
     pub(crate) fn filled_by(self, count: usize) -> Option<Self> {
         let narrower = match self.0 {
             #[cfg(target_arch = "x86_64")]
@@ -104,7 +104,7 @@ impl InstructionSet {
             .find(|instructions| instructions.lanes() <= count)
     }
 
-    /// Does a task that is written for registers of any width.
+    /// Runs a task that is written for registers of any width.
     #[inline]
     pub(crate) fn run_wide<T: Wide>(self, task: T) -> T::Output {
         match self.0 {
@@ -117,7 +117,7 @@ impl InstructionSet {
     }
 }
 
-/// Does a task without any instructions of its own. A function apart, so that the other sets' frames need not its memory, which without
+/// Runs a task without any instructions of its own. A function apart, so that the other sets' frames need not its memory, which without
 /// optimisation is half a megabyte.
 fn baseline<T: Task, const FMA: bool>(task: T) -> T::Output {
     task.run::<FMA>()

@@ -59,7 +59,7 @@ impl Lanes {
         Self(lanes)
     }
 
-    /// Into the first eight numbers of a slice.
+    /// Writes the lanes into the first eight numbers of a slice.
     ///
     /// # Panics
     /// If there are fewer.
@@ -111,7 +111,7 @@ impl Lanes {
         each!(I => mul_add::<FMA>(self.0[I], b.0[I], c.0[I]))
     }
 
-    /// Where it is above another; nowhere where one of them is not a number.
+    /// Mask of the lanes above those of another; nowhere where one of them is not a number.
     #[inline(always)]
     pub(crate) fn above(self, other: Self) -> Mask {
         Mask(each!(I => if self.0[I] > other.0[I] { 1.0 } else { 0.0 }))
@@ -122,7 +122,7 @@ impl Lanes {
         Mask(self.map(|x| if x.is_nan() { 1.0 } else { 0.0 }))
     }
 
-    /// Their sum, by halves.
+    /// Sum of the lanes, by halves.
     #[inline(always)]
     pub(crate) fn sum(self) -> f64 {
         let [a, b, c, d, e, f, g, h] = self.0;
@@ -258,7 +258,7 @@ impl Counters {
         self.0 += mask.0 * f64::from(times);
     }
 
-    /// All of them together.
+    /// Sum of the lanes, which hold whole numbers.
     // Whole numbers, and few.
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
     pub(crate) fn total(self) -> u32 {

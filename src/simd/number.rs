@@ -19,7 +19,7 @@ pub(crate) trait Number:
     + Mul<f64, Output = Self>
     + AddAssign
 {
-    /// What a comparison of them says.
+    /// Answer of a comparison.
     type Decision: Decision;
 
     /// A number of the same kind that is x everywhere.
@@ -31,10 +31,10 @@ pub(crate) trait Number:
     /// self · b + c, fused where the instructions have it: elsewhere a fused product is a slow call.
     fn mul_add<const FMA: bool>(self, b: Self, c: Self) -> Self;
 
-    /// Another number where this one is positive, 0 where it is not; where this one is NaN, the other stays.
+    /// Selection: another number where this one is positive, 0 where it is not; where this one is NaN, the other stays.
     fn gates(self, other: Self) -> Self;
 
-    /// Where it is above another; nowhere where one of them is NaN.
+    /// Comparison: whether it is above another; no where one of them is NaN.
     fn above(self, other: Self) -> Self::Decision;
 
     /// A function of each, with its slope from argument and value.
@@ -68,7 +68,7 @@ pub(crate) trait Number:
         (part(exponent), part(mantissa))
     }
 
-    /// Does work with numbers of this kind in a function of its own, compiled for the same instructions. Without optimisation each
+    /// Runs work with numbers of this kind in a function of its own, compiled for the same instructions. Without optimisation each
     /// operation takes memory in the frame of the function it is taken into, which else sums up to megabytes.
     #[inline(always)]
     fn outlined<R>(self, work: impl FnOnce() -> R) -> R {
@@ -93,7 +93,7 @@ fn guess_inverse_root(x: f64) -> f64 {
 
 /// Yes or no, for each number of its kind.
 pub(crate) trait Decision: Copy {
-    /// Where both say yes.
+    /// Conjunction: yes where both say yes.
     fn and(self, other: Self) -> Self;
 }
 

@@ -33,7 +33,7 @@ fn same(found: f64, wanted: f64) -> bool {
     found.to_bits() == wanted.to_bits() || (found.is_nan() && wanted.is_nan())
 }
 
-/// All masks of so many lanes: lane i is true where bit i is set.
+/// Masks of so many lanes, all of them: lane i is true where bit i is set.
 fn patterns(lanes: usize) -> impl Iterator<Item = u32> {
     0..1 << lanes
 }

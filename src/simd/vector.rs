@@ -1,4 +1,4 @@
-//! As many numbers as a register of the instruction set holds: for loops along tables, where eight at a time would leave half of
+//! Vector of as many numbers as a register of the instruction set holds: for loops along tables, where eight at a time would leave half of
 //! them idle or spill.
 
 // Everything here must end up in the loop that uses it, compiled for that loop's instructions.
@@ -29,7 +29,7 @@ pub(crate) struct Choice<S: Simd> {
 }
 
 impl<S: Simd> Vector<S> {
-    /// How many. A mask's size says nothing about it: AVX-512 has a bit a number.
+    /// Number of lanes. A mask's size says nothing about it: AVX-512 has a bit a number.
     pub(crate) const LANES: usize = {
         assert!(S::F64_LANES.is_power_of_two() && S::F64_LANES <= LANES);
         S::F64_LANES
@@ -59,7 +59,7 @@ impl<S: Simd> Vector<S> {
         Self::of(simd, S::as_simd_f64s(from).0[0])
     }
 
-    /// Into the first numbers of a slice.
+    /// Writes the vector into the first numbers of a slice.
     ///
     /// # Panics
     /// If there are too few.
@@ -68,25 +68,25 @@ impl<S: Simd> Vector<S> {
         S::as_mut_simd_f64s(to).0[0] = self.numbers;
     }
 
-    /// All registers of a slice, and what is left.
+    /// Registers of a slice, and what is left.
     #[inline(always)]
     pub(crate) fn split(of: &[f64]) -> (&[S::f64s], &[f64]) {
         S::as_simd_f64s(of)
     }
 
-    /// What a register holds.
+    /// The vector that a register holds.
     #[inline(always)]
     pub(crate) fn of(simd: S, numbers: S::f64s) -> Self {
         Self { simd, numbers }
     }
 
-    /// Into a register.
+    /// Writes the vector into a register.
     #[inline(always)]
     pub(crate) fn put(self, to: &mut S::f64s) {
         *to = self.numbers;
     }
 
-    /// So many registers of a slice.
+    /// Registers of a slice, so many of them.
     ///
     /// # Panics
     /// If there are too few.
@@ -104,7 +104,7 @@ impl<S: Simd> Vector<S> {
         &mut S::as_mut_simd_f64s(of).0[..count]
     }
 
-    /// Where registers begin that cover so many numbers, which fill at least one, and how many of its numbers each has
+    /// Beginnings of registers that cover so many numbers, which fill at least one, and how many of its numbers each has
     /// in common with that before it.
     #[inline(always)]
     pub(crate) fn cover(count: usize) -> impl Iterator<Item = (usize, usize)> {
@@ -127,7 +127,7 @@ impl<S: Simd> Vector<S> {
         }
     }
 
-    /// Another number everywhere.
+    /// Vector with another number everywhere.
     #[inline(always)]
     pub(crate) fn same(self, x: f64) -> Self {
         Self::all(self.simd, x)
@@ -164,7 +164,7 @@ impl<S: Simd> Vector<S> {
         self.with(self.simd.mul_add_e_f64s(self.numbers, b.numbers, c.numbers))
     }
 
-    /// Where it is below another; nowhere where one of them is not a number.
+    /// Choice of the numbers below those of another; nowhere where one of them is not a number.
     #[inline(always)]
     pub(crate) fn below(self, other: Self) -> Choice<S> {
         self.choice(self.simd.less_than_f64s(self.numbers, other.numbers))
@@ -391,7 +391,7 @@ impl<S: Simd> Choice<S> {
         self.with(self.simd.not_m64s(self.lanes))
     }
 
-    /// One or the other number.
+    /// Number that the choice takes from the one or the other vector.
     #[inline(always)]
     pub(crate) fn choose(self, yes: Vector<S>, no: Vector<S>) -> Vector<S> {
         yes.with(self.simd.select_f64s(self.lanes, yes.numbers, no.numbers))
@@ -402,7 +402,7 @@ impl<S: Simd> Choice<S> {
         self.simd.first_true_m64s(self.lanes) < Vector::<S>::LANES
     }
 
-    /// Which ones.
+    /// Lanes that are chosen.
     #[inline(always)]
     pub(crate) fn lanes(self) -> impl Iterator<Item = usize> {
         let mut marks = [0.0; LANES];

@@ -26,7 +26,7 @@ pub(crate) struct Frame {
 }
 
 impl Frame {
-    /// Of a ring that tilts; its tilt is shorter than 1.
+    /// The frame of a ring that tilts; its tilt is shorter than 1.
     pub fn new([x, y]: [f64; 2]) -> Self {
         let along = (1.0 - x * x - y * y).max(0.0).sqrt();
         let k = 1.0 / (1.0 + along);
@@ -63,7 +63,7 @@ impl Frame {
         self.matrix.tr_mul(v)
     }
 
-    /// As [`Self::to_scene`], of vectors side by side.
+    /// Vectors side by side, turned as by [`Self::to_scene`].
     #[inline(always)]
     pub fn all_to_scene<T: Number, const FMA: bool>(&self, v: [T; 3]) -> [T; 3] {
         let m = &self.matrix;
@@ -74,7 +74,7 @@ impl Frame {
         ]
     }
 
-    /// As [`Self::to_ring`], of vectors side by side.
+    /// Vectors side by side, turned as by [`Self::to_ring`].
     #[inline(always)]
     pub fn all_to_ring<T: Number, const FMA: bool>(&self, v: [T; 3]) -> [T; 3] {
         let m = &self.matrix;

@@ -23,9 +23,9 @@ use super::Frame;
 /// Moments of inertia of a ring about its centre of mass \[kg m²\].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Inertia {
-    /// About the axis.
+    /// Moment of inertia about the axis.
     pub polar: f64,
-    /// Across it.
+    /// Moment of inertia across the axis.
     pub transverse: f64,
 }
 
@@ -44,7 +44,7 @@ pub(crate) struct Rotation {
 }
 
 impl Rotation {
-    /// Of a ring with a tilt, its rates and a spin \[rad/s\].
+    /// The rotation of a ring with a tilt, its rates and a spin \[rad/s\].
     pub fn new(tilt: [f64; 2], rates: [f64; 2], spin: f64) -> Self {
         let frame = Frame::new(tilt);
         let ([x, y], [vx, vy]) = (tilt, rates);
@@ -63,7 +63,7 @@ impl Rotation {
         axis.cross(&self.axis_rate) + axis * (self.spin + self.drift)
     }
 
-    /// Of the rotation \[J\].
+    /// Kinetic energy of the rotation \[J\].
     pub fn kinetic_energy(&self, inertia: &Inertia) -> f64 {
         let about = self.spin + self.drift;
         0.5 * (inertia.polar * about * about + inertia.transverse * self.axis_rate.norm_squared())
@@ -121,7 +121,7 @@ impl Rotation {
         found.into()
     }
 
-    /// What a moment adds where nothing is prescribed: of the same form as [`Self::free`], at rest.
+    /// Response to a moment where nothing is prescribed: of the same form as [`Self::free`], at rest.
     fn response(&self, inertia: &Inertia, moment: &Vector3<f64>) -> Vector3<f64> {
         let (axis, [x, y]) = (self.frame.axis(), self.frame.tilt);
         let turning = moment.cross(&axis) / inertia.transverse;
@@ -130,7 +130,7 @@ impl Rotation {
         Vector3::new(ax, ay, moment.dot(&axis) / inertia.polar - drift_rate)
     }
 
-    /// Where nothing is prescribed.
+    /// Acceleration where nothing is prescribed.
     fn free(&self, inertia: &Inertia, moment: &Vector3<f64>) -> Vector3<f64> {
         let (axis, rate) = (self.frame.axis(), self.axis_rate);
         let ([x, y], [vx, vy]) = (self.frame.tilt, self.rates);

@@ -20,7 +20,7 @@ use crate::simd::Lanes;
 /// (1 − Σ D Φ S Φᵀ) x + Σ D Φ S T J X = r and (1 + d) X − L Σ Tᵀ S (T J X − Φᵀ x) = R. Bodies have N directions.
 #[derive(Debug, Clone)]
 pub(super) struct Arrow<const N: usize> {
-    /// What the balls put into each ring's rows for either ring, before L and J, and into their right-hand side.
+    /// Blocks that the balls put into each ring's rows for either ring, before L and J, and into their right-hand side.
     rings: [[LaneMatrix<N>; 2]; 2],
     right: [[Lanes; N]; 2],
     factors: Option<Factors>,
@@ -30,7 +30,7 @@ pub(super) struct Arrow<const N: usize> {
     eights: Vec<EightBalls<N>>,
 }
 
-/// Of the balls' rows A x + B J X = r and the rings' C x.
+/// Blocks of eight balls' rows A x + B J X = r and the rings' C x.
 #[derive(Debug, Clone)]
 struct EightBalls<const N: usize> {
     /// A⁻¹.
@@ -48,7 +48,7 @@ struct EightBalls<const N: usize> {
 pub(super) struct EightOnRing<'a, const N: usize> {
     /// S, in the ring's frame.
     pub slope: &'a LaneMatrix<N>,
-    /// From the origin of that frame to the balls, in it.
+    /// Vector from the origin of that frame to the balls, in it.
     pub apart: [Lanes; 3],
     /// Φ, where it is not 1.
     pub turn: Option<RingRotation<'a>>,

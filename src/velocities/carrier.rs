@@ -19,11 +19,11 @@ use crate::tilt::{Frame, Rotation};
 /// A matrix for each of eight balls, of which a row is a direction of the ball.
 pub(super) type LaneMatrix<const N: usize> = [[Lanes; N]; N];
 
-/// Where directions along x, y and z stand: of forces, and of moments about them.
+/// Offsets of directions along x, y and z: of forces, and of moments about them.
 const ALONG: [usize; 3] = [0, 1, 2];
 const ABOUT: [usize; 3] = [AXIAL, AXIAL + 1, 3];
 
-/// From a ring's velocities X to what its contacts see, and from their wrench to γh of its accelerations.
+/// Map from a ring's velocities X to what its contacts see, and from their wrench to γh of its accelerations.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Carrier<const N: usize> {
     /// J.
@@ -42,7 +42,7 @@ impl<const N: usize> Default for Carrier<N> {
 }
 
 impl<const N: usize> Carrier<N> {
-    /// Of the ring of a race and its mobility, as it is seen.
+    /// The carrier of the ring of a race and its mobility, as it is seen.
     pub fn new(
         model: &Model,
         (race, mobility): (Race, [f64; DOFS]),
@@ -115,7 +115,7 @@ pub(super) struct RingRotation<'a> {
 }
 
 impl<'a> RingRotation<'a> {
-    /// Of a ring that may tilt.
+    /// The carrier of a ring that may tilt.
     pub fn new(view: &'a RingView) -> Self {
         Self {
             frame: view.frame(),
@@ -123,7 +123,7 @@ impl<'a> RingRotation<'a> {
         }
     }
 
-    /// Of balls that spin freely.
+    /// The carrier of balls that spin freely.
     #[cfg(test)]
     pub fn of(frame: &'a Frame) -> Self {
         Self {
@@ -132,7 +132,7 @@ impl<'a> RingRotation<'a> {
         }
     }
 
-    /// One of these, into the scene's frame.
+    /// Turns a vector of these into the scene's frame.
     #[inline(always)]
     fn out<const FMA: bool, const N: usize>(&self, of: &mut [Lanes; N]) {
         for at in [ALONG, ABOUT]

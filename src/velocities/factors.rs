@@ -10,7 +10,7 @@ pub(super) type OnBothRings<const N: usize> = [[f64; N]; 2];
 type RingMatrix<const R: usize> = SMatrix<f64, R, R>;
 type Factorised<const R: usize> = LU<f64, Const<R>, Const<R>>;
 
-/// Of both rings' directions: those of parallel rings, or all.
+/// Factors of both rings' directions: those of parallel rings, or all.
 // A matrix has one of them; in a box the larger would be allocated for every matrix.
 #[allow(clippy::large_enum_variant)]
 #[derive(Debug, Clone)]
@@ -20,7 +20,7 @@ pub(super) enum Factors {
 }
 
 impl Factors {
-    /// Of a matrix for N directions a ring, by its entries.
+    /// The factors of a matrix for N directions a ring, by its entries.
     pub fn of<const N: usize>(entry: impl Fn(usize, usize) -> f64) -> Self {
         if N == AXIAL {
             Self::Axial(RingMatrix::<{ 2 * AXIAL }>::from_fn(entry).lu())

@@ -10,7 +10,7 @@ use crate::dynamics::{SideConstants, Touching, View};
 use crate::model::{BodyId, DOFS, Dof, Model, Race};
 use crate::simd::{LANES, Lanes, Mask, Task};
 
-/// What a ball may meet at one ring.
+/// Contact that a ball may have with one ring.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) enum Met {
     #[default]
@@ -21,7 +21,7 @@ pub(super) enum Met {
     Alone,
 }
 
-/// Up to eight balls that touch something; the last one fills the lanes that are left.
+/// Balls that touch something, up to eight; the last one fills the lanes that are left.
 #[derive(Debug, Clone, Default)]
 pub(super) struct HeldBalls<const N: usize> {
     /// The class of their rows.
@@ -32,25 +32,25 @@ pub(super) struct HeldBalls<const N: usize> {
     pub sides: [Side<N>; 2],
 }
 
-/// Their contacts with one ring.
+/// Contacts of eight balls with one ring.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Side<const N: usize> {
     held: HeldContacts,
     nodes: HeldElements,
     /// Slices of contacts that are evaluated alone, and the numbers of these.
     packs: Vec<(usize, SlicePack)>,
-    /// These contacts: their lane, and what their slices share.
+    /// Contacts with slices: their lane, and what their slices share.
     singles: Vec<(usize, Around)>,
     /// Axial places of the balls, in the ring's frame.
     raised: Lanes,
     /// Whether any touches.
     pub touches: bool,
-    /// Of force and moment on the balls, in (x, y, z, about z …) of the ring's frame.
+    /// Slope of force and moment on the balls, in (x, y, z, about z …) of the ring's frame.
     pub slope: HeldSlope<N>,
 }
 
 impl<const N: usize> Side<N> {
-    /// From the ring's centre to the balls', in the ring's frame.
+    /// Vector from the ring's centre to the balls', in the ring's frame.
     pub fn apart(&self) -> [Lanes; 3] {
         let [x, y] = self.held.apart;
         [x, y, self.raised]

@@ -16,7 +16,7 @@ const SERVES: usize = 128;
 const SERVES_FAST: usize = 32;
 const FAST: f64 = 1.2;
 
-/// What contact damping takes off a velocity in a step, under the loads at the start, up to which rolling balls do without a matrix:
+/// Share that contact damping takes off a velocity in a step, under the loads at the start, up to which rolling balls do without a matrix:
 /// a 6205 under thrust, at 0.43, runs 1.66 times as fast as the free model without and 1.45 with one; the wheel bearing without
 /// thrust, at 0.73, 1.04 and 1.30 times (`benches/approximations.py`).
 const BEARS: f64 = 0.5;
@@ -25,7 +25,7 @@ const BEARS: f64 = 0.5;
 #[derive(Debug)]
 pub(crate) struct Damped<'d, 'm> {
     pub dynamics: &'d mut Dynamics<'m>,
-    /// None where no force of a contact depends on velocities.
+    /// Matrix of the contacts; none where no force of a contact depends on velocities.
     matrix: Option<Box<dyn Corrects>>,
     longest: f64,
 }
@@ -35,19 +35,19 @@ pub(crate) struct Damped<'d, 'm> {
 struct Corrector {
     /// Correction of a velocity over that of its acceleration \[s\].
     gamma_h: f64,
-    /// By how much a place is corrected with its velocity \[s\].
+    /// Correction of a place with its velocity \[s\].
     reach: f64,
 }
 
 /// The matrix of the contacts, of balls of any number of directions.
 trait Corrects: std::fmt::Debug {
-    /// As [`LinearlyImplicit::prepare`].
+    /// Prepares as [`LinearlyImplicit::prepare`].
     fn prepare(&mut self, dynamics: &Dynamics<'_>, t: f64, y: &[f64], by: Corrector);
 
-    /// As [`LinearlyImplicit::relaxation`].
+    /// Relaxation as of [`LinearlyImplicit::relaxation`].
     fn relaxation(&self) -> f64;
 
-    /// As [`LinearlyImplicit::solve`].
+    /// Solves as [`LinearlyImplicit::solve`].
     fn solve(&mut self, dynamics: &Dynamics<'_>, r: &mut [f64]);
 
     /// Passes on what the matrix was made of, and makes it anew where that is loaded.
@@ -60,14 +60,14 @@ struct BodyMatrix<const N: usize> {
     matrix: ContactMatrix<N>,
     /// The velocities of the run that are corrected, along axes and about them.
     corrected: Vec<Velocity>,
-    /// Those along the radii of balls.
+    /// Corrections along the radii of balls.
     radial: Vec<Radial>,
     /// The last state of all bodies, as a run's vector and as the contacts read it.
     full: Vec<f64>,
     state: State,
-    /// Where rings may tilt, all balls as these see them.
+    /// Views of all balls by the rings, where these may tilt.
     rings: Option<[RingView; 2]>,
-    /// What it was made of, once it was.
+    /// Material of the matrix, once it was made.
     made: Option<MadeOf>,
     /// Steps that it has served.
     served: usize,
@@ -75,7 +75,7 @@ struct BodyMatrix<const N: usize> {
     relaxation: f64,
 }
 
-/// What a matrix was made of.
+/// Material from which a matrix was made.
 #[derive(Debug, Clone, Default)]
 struct MadeOf {
     t: f64,
@@ -99,15 +99,15 @@ impl Remembered for MadeOf {
 /// The velocity of a ball along its radius, where its distance from the shaft is a state.
 #[derive(Debug)]
 struct Radial {
-    /// Among those of a run.
+    /// Offset among the states of a run.
     at: usize,
     ball: BodyId,
-    /// Of the radius, when the matrix was made.
+    /// Direction of the radius, when the matrix was made.
     direction: [f64; 2],
 }
 
 impl<'d, 'm> Damped<'d, 'm> {
-    /// For steps up to a longest one \[s\].
+    /// The correction for steps up to a longest one \[s\].
     pub fn new(dynamics: &'d mut Dynamics<'m>, longest: f64) -> Self {
         let matrix = is_stiff(dynamics, longest).then(|| {
             if dynamics.tilts() {
@@ -123,7 +123,7 @@ impl<'d, 'm> Damped<'d, 'm> {
         }
     }
 
-    /// What its matrix remembers; nothing without one.
+    /// Memory of the matrix; nothing without one.
     pub fn remembered(&mut self) -> Vec<u64> {
         Words::saved(self)
     }

@@ -19,7 +19,7 @@ const SAME: f64 = 0.2;
 pub(super) struct ContactMatrix<const N: usize> {
     /// Used to search what touches.
     search: Batch,
-    /// What every ball may meet at both rings.
+    /// Contacts that every ball may have with both rings.
     meetings: Vec<[Met; 2]>,
     /// The balls that meet something, by eights: the first `active` of these.
     batches: Vec<HeldBalls<N>>,
@@ -33,7 +33,7 @@ pub(super) struct ContactMatrix<const N: usize> {
 }
 
 impl<const N: usize> ContactMatrix<N> {
-    /// For the contacts of some rows.
+    /// The matrix for the contacts of some rows.
     pub fn new(model: &Model, rows: Range<usize>) -> Self {
         let kind = Guarantees {
             rows,
@@ -142,7 +142,7 @@ impl<const N: usize> ContactMatrix<N> {
     }
 }
 
-/// Where a velocity stands: among those of a run, and among those of its body in a [`ContactMatrix`].
+/// Offsets of a velocity: among those of a run, and among those of its body in a [`ContactMatrix`].
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Velocity {
     pub at: usize,
@@ -151,7 +151,7 @@ pub(super) struct Velocity {
 }
 
 impl Velocity {
-    /// That of a direction, of which there is none for the rates of Euler parameters: they follow from how a ball turns.
+    /// The velocity of a direction, of which there is none for the rates of Euler parameters: they follow from how a ball turns.
     pub fn of((at, (body, dof)): (usize, (BodyId, Dof))) -> Option<Self> {
         let place = match dof {
             Dof::TiltX | Dof::TurnX => AXIAL,

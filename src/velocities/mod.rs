@@ -113,7 +113,7 @@ mod tests {
         scene
     }
 
-    /// Those scenes with rings that tilt and rock, with balls that spin freely, and with both.
+    /// Scenes with rings that tilt and rock, with balls that spin freely, and with both.
     pub(super) fn spatial() -> Vec<Scene> {
         let all = || scenes().into_iter().chain([oiled_wheel(), rolling()]);
         let mut found: Vec<Scene> = all().map(|scene| spinning(&scene)).collect();
@@ -129,7 +129,7 @@ mod tests {
         scene
     }
 
-    /// By so much that a matrix of parallel rings would be seen.
+    /// The scene tilted by so much that a matrix of parallel rings would be seen.
     fn tilted(scene: &Scene) -> Scene {
         let mut scene = scene.clone();
         scene.name.push_str(" tilted");

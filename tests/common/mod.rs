@@ -1,4 +1,4 @@
-//! What the tests share.
+//! Helpers that the tests share.
 
 // Every test program uses a part of it.
 #![allow(dead_code)]
@@ -170,7 +170,7 @@ pub fn tabulated(row: &Row, race: Race, count: usize) -> RaceProfile {
     RaceProfile::new(z, r)
 }
 
-/// All races of a scene through points of their tori.
+/// Scene with all races through points of their tori.
 pub fn through_points(scene: &Scene, count: usize) -> Scene {
     let mut scene = scene.clone();
     for row in &mut scene.rows {

@@ -15,11 +15,11 @@ pub(crate) struct Places<'a> {
     pub radius: Lanes,
     /// x, y, z \[m\].
     pub q: [Lanes; 3],
-    /// Their textures, where they have any, and how far they have turned \[rad\].
+    /// Textures of the balls, where they have any, and how far they have turned \[rad\].
     pub texture: Option<([&'a HeightTable; LANES], Lanes)>,
 }
 
-/// Which of eight balls of a row touch a race, which of these may see a defect of it or are for other reasons left to
+/// Lanes of eight balls of a row that touch a race, those that may see a defect of it or are for other reasons left to
 /// [`Pair::evaluate`], how race and balls are raised there, and which balls are lost ([`crate::contact::Torus::farthest`]).
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Near {
@@ -34,17 +34,17 @@ pub(crate) struct Near {
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct EightContacts {
     pub constants: Constants<Lanes>,
-    /// Of the race by its waves.
+    /// Raise of the race by its waves.
     pub raise: Raise<Lanes>,
     /// Whether any race here has waves.
     pub wavy: bool,
-    /// Of the balls by their texture, if they have one.
+    /// Raise of the balls by their texture, if they have one.
     pub swell: Option<Raise<Lanes>>,
     /// Position x, y, z of the ball \[m\].
     pub q: [Lanes; 3],
     /// Velocity \[m/s\] and angular speed \[rad/s\] of the ball.
     pub v: [Lanes; 4],
-    /// Of their films, if they have any.
+    /// Films of the balls, if they have any.
     pub film: Option<FilmNumbers<Lanes>>,
 }
 
@@ -56,7 +56,7 @@ impl EightContacts {
         [self.q[0] + -x, self.q[1] + -y, self.q[2] + -z]
     }
 
-    /// Their velocities as seen by who moves with their rings' centres.
+    /// Velocities of the balls as seen by who moves with their rings' centres.
     #[inline(always)]
     pub fn v_from(&self, ring: &RingLanes) -> [Lanes; 3] {
         let [x, y, z] = ring.velocity;
@@ -75,7 +75,7 @@ pub(crate) struct RingLanes {
 }
 
 impl RingLanes {
-    /// One ring for all.
+    /// The same ring in all lanes.
     #[inline(always)]
     pub fn of(ring: &Motion, sigma: f64) -> Self {
         Self {
@@ -86,7 +86,7 @@ impl RingLanes {
         }
     }
 
-    /// This one in some lanes, another in the others.
+    /// Merge of two rings: this one in some lanes, another in the others.
     #[inline(always)]
     pub fn or(&self, here: Mask, other: &Self) -> Self {
         let mut both = *self;
@@ -121,7 +121,7 @@ pub(crate) struct Constants<T> {
 }
 
 impl Constants<Lanes> {
-    /// These in some lanes, others in the others.
+    /// Merge of two places: these in some lanes, others in the others.
     #[inline(always)]
     pub fn or(&self, here: Mask, other: &Self) -> Self {
         Self {
@@ -169,7 +169,7 @@ impl Pair {
         }
     }
 
-    /// Which of eight balls touch, as [`Pair::evaluate`] decides it.
+    /// The balls among eight that touch, as [`Pair::evaluate`] decides it.
     #[inline(always)]
     pub(crate) fn near<const FMA: bool>(&self, balls: &Places<'_>, ring: &Motion) -> Near {
         let race = &self.race;

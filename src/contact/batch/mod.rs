@@ -23,7 +23,7 @@ use super::slip::Moves;
 use super::{FilmEffect, Law, Pair};
 use crate::simd::{Counters, InstructionSet, Lanes, Mask};
 
-/// What eight contacts put on balls and ring: force \[N\] and moment about z \[N m\].
+/// Forces \[N\] and moments about z \[N m\] that eight contacts put on balls and ring.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct BatchForces {
     pub ball: [Lanes; 4],
@@ -38,11 +38,11 @@ pub(crate) struct BatchForces {
 pub(crate) enum Summing<'a> {
     /// Element by element.
     Elements(InstructionSet, &'a mut Rubbing),
-    /// Under Hertz's law as a whole, by its stiffness.
+    /// The contact as a whole under Hertz's law, by its stiffness.
     AsOne(f64),
 }
 
-/// Where eight contacts are and which way they point.
+/// Places of eight contacts and the directions in which they point.
 pub(super) struct Place {
     /// Unit vector in the plane from the ring's centre to the ball's, and their distance there.
     pub n: (Lanes, Lanes),
@@ -91,7 +91,7 @@ impl Pair {
         sums.on_bodies(&place)
     }
 
-    /// Where eight contacts are; those in `skip` are not regular.
+    /// Places of eight contacts; those in `skip` are not regular.
     #[inline(always)]
     pub(super) fn place<const FMA: bool, const SYMMETRIC: bool>(
         &self,
@@ -187,7 +187,7 @@ impl Pair {
         }
     }
 
-    /// All elements, or one for all.
+    /// Sum over all elements, or one for all.
     #[inline(always)]
     fn elements<const FMA: bool, const SYMMETRIC: bool>(
         &self,
@@ -230,7 +230,7 @@ impl<'a> Sums<'a> {
         }
     }
 
-    /// What they put on balls and ring.
+    /// Forces on balls and ring.
     #[inline(always)]
     fn on_bodies(&self, place: &Place) -> BatchForces {
         let (sigma, n) = (self.sigma, place.n);
@@ -269,7 +269,7 @@ impl<'a> Sums<'a> {
 }
 
 impl Sums<'_> {
-    /// What the force of an element depends on, whose elastic force is counted.
+    /// State on which the force of an element depends; its elastic force is counted.
     #[inline(always)]
     fn state<const FMA: bool>(&mut self, element: &Element<Lanes>) -> ElementState<Lanes> {
         let moves = self.moves;
@@ -332,7 +332,7 @@ fn is_regular<const SYMMETRIC: bool>(
     zone: &Zone<Lanes>,
     (low, high): (Lanes, Lanes),
 ) -> Mask {
-    /// Of the ball's or the groove's radius: nothing is singular yet.
+    /// Bound of places as a share of the ball's or the groove's radius: nothing is singular yet.
     const EDGE: f64 = 1.0 - 1e-9;
     let of = &eight.constants;
     let (e, c) = (section.e, section.c);

@@ -28,7 +28,7 @@ struct OnCurve<'a> {
     radius: Lanes,
 }
 
-/// Where they touch.
+/// Places where the balls touch a curve.
 struct Meetings {
     section: Section<Lanes>,
     /// Ends of the zones on the chord, and along the balls.
@@ -40,7 +40,7 @@ struct Meetings {
 }
 
 impl Pair {
-    /// As [`Pair::forces`], of eight contacts with this race, which is a hollow curve.
+    /// Forces as by [`Pair::forces`], of eight contacts with this race, which is a hollow curve.
     #[inline(always)]
     pub(crate) fn forces_on_curve<const FMA: bool>(
         &self,
@@ -92,7 +92,7 @@ impl Pair {
         sums.on_bodies(eight, &place)
     }
 
-    /// Where eight contacts are.
+    /// Places of eight contacts on a curve.
     #[inline(always)]
     fn place_on_curve<'a, const FMA: bool>(
         &self,
@@ -161,7 +161,7 @@ impl Pair {
 }
 
 impl OnCurve<'_> {
-    /// Where the balls touch, and between which ends.
+    /// Places where the balls touch, and the ends between which they do.
     #[inline(always)]
     fn meet<const FMA: bool>(&self, cut: &Cut) -> Meetings {
         let (section, settled) = self.foot::<FMA>();
@@ -332,7 +332,7 @@ struct CurveElements<'a, R, const FMA: bool> {
     d: Lanes,
     /// u of the zones' middles \[m\].
     middle: Lanes,
-    /// What friction weighs at nodes over the normal force, if not the same.
+    /// Weights of friction at nodes over the normal force, if not the same.
     rubbing: Option<&'a [Lanes]>,
     to: &'a mut R,
 }

@@ -15,7 +15,7 @@ use crate::simd::{InstructionSet, LANES, Lanes, Simd, Vector, Wide};
 pub(crate) struct Rubbing(Vec<Lanes>);
 
 impl Rubbing {
-    /// What it weighs over the normal force at the nodes of whole zones, which have their middle at u = 0 if not elsewhere \[m\];
+    /// Weights of friction over the normal force at the nodes of whole zones, which have their middle at u = 0 if not elsewhere \[m\];
     /// none where both weigh the same.
     #[inline(always)]
     pub(in crate::contact) fn at_nodes<const FMA: bool>(

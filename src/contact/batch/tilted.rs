@@ -21,7 +21,7 @@ pub(super) struct SpatialSums<'a> {
 }
 
 impl Pair {
-    /// As [`Pair::forces`], of eight contacts in the frame of a ring that may tilt, where it stands still and balls turn across its axis
+    /// Forces as by [`Pair::forces`], of eight contacts in the frame of a ring that may tilt, where it stands still and balls turn across its axis
     /// so fast \[rad/s\]. Moments across the axis are returned as well, on balls and on the ring about the origin \[N m\].
     #[inline(always)]
     pub(crate) fn forces_tilted<const FMA: bool>(
@@ -62,7 +62,7 @@ impl Place {
 }
 
 impl SpatialSums<'_> {
-    /// What they put on balls and ring, with the moments about x and y.
+    /// Forces on balls and ring, with the moments about x and y.
     #[inline(always)]
     pub fn on_bodies(&self, eight: &EightContacts, place: &Place) -> (BatchForces, [Across; 2]) {
         let forces = self.sums.on_bodies(place);

@@ -23,7 +23,7 @@ pub(crate) struct AxiallyFixedRace<'a, S: Simd> {
     margin: Vector<S>,
     /// Approach up to which the form holds \[m\].
     limit: Vector<S>,
-    /// Where balls are lost \[m\], see [`Torus::farthest`].
+    /// Distance from which balls are lost \[m\], see [`Torus::farthest`].
     farthest: Vector<S>,
     /// 3/2 of the damping \[s/m\].
     damping: Vector<S>,
@@ -40,26 +40,26 @@ pub(crate) struct AxiallyFixedBalls<S: Simd> {
     pub vy: Vector<S>,
     /// Raise of the race under them \[m\].
     pub raise: Vector<S>,
-    /// Its derivative by the angle \[m\]; none where races are round.
+    /// Derivative of the radius by the angle \[m\]; none where races are round.
     pub slope: Option<Vector<S>>,
-    /// Where there is a ball, whose contact sees no defect. If that is unknown, all are to be left out as soon as
+    /// Lanes with a ball whose contact sees no defect. If that is unknown, all are to be left out as soon as
     /// one needs care.
     pub whole: Option<Choice<S>>,
 }
 
-/// What a race puts on balls: the ring gets the opposite.
+/// Forces of a race on balls: the ring gets the opposite.
 #[derive(Clone, Copy)]
 pub(crate) struct AxiallyFixedForces<S: Simd> {
-    /// Along x and y \[N\].
+    /// Force along x and y \[N\].
     pub x: Vector<S>,
     pub y: Vector<S>,
-    /// About the ring's centre \[N m\].
+    /// Moment about the ring's centre \[N m\].
     pub moment: Vector<S>,
-    /// Which contacts wanted to pull.
+    /// Contacts that wanted to pull.
     pub pulls: Choice<S>,
-    /// Which touch but are left out here: the form does not hold, or they are not whole.
+    /// Contacts that touch but are left out here: the form does not hold, or they are not whole.
     pub left_out: Choice<S>,
-    /// From the groove's centre to the ball's along their line; in the middle of the groove less than nothing beyond the
+    /// Distance from the groove's centre to the ball's along their line; in the middle of the groove less than nothing beyond the
     /// centre \[m\].
     l: Vector<S>,
 }
@@ -152,7 +152,7 @@ impl<'a, S: Simd> AxiallyFixedRace<'a, S> {
         }
     }
 
-    /// Which balls are lost, among those that need care.
+    /// Balls that are lost, among those that need care.
     #[inline(always)]
     pub fn lost(&self, forces: &AxiallyFixedForces<S>) -> Choice<S> {
         let inside = forces.l.abs().below(self.farthest);

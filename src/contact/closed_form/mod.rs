@@ -24,7 +24,7 @@ const EDGE: f64 = 1.0 - 1e-9;
 /// Largest error of the polynomial over the force: rounding. Off the groove's middle the sums themselves are not known
 /// better than the second.
 const BOUND: (f64, f64) = (1e-12, 1e-10);
-/// Its coefficients.
+/// Number of a polynomial's coefficients.
 const TERMS: usize = 14;
 /// Half-length of the zone over the ball's radius up to which the polynomial is tried first.
 const REACH: f64 = 0.85;
@@ -83,7 +83,7 @@ pub(crate) struct InPlane {
 pub(crate) enum LawInPlane {
     /// K of Hertz's law, along the common normal.
     Hertz(f64),
-    /// What the slices of the ISO law add up to in the plane.
+    /// Sum of the slices of the ISO law in the plane.
     Iso(Series),
 }
 
@@ -93,7 +93,7 @@ impl InPlane {
         self.offset == 0.0
     }
 
-    /// For balls of a radius; none where there is friction, where slices are fixed, or where no polynomial reaches the
+    /// The closed form for balls of a radius; none where there is friction, where slices are fixed, or where no polynomial reaches the
     /// bound.
     pub fn new(pair: &Pair, radius: f64, offset: f64) -> Option<Self> {
         let rules = rules(pair)?;
@@ -239,7 +239,7 @@ impl TwoCircles {
 }
 
 impl Series {
-    /// Through the values of a force by approach, up to a limit or as far as a polynomial meets a bound.
+    /// The polynomial through the values of a force by approach, up to a limit or as far as a polynomial meets a bound.
     fn new(force: impl Fn(f64) -> f64, limit: f64, bound: f64) -> Option<Self> {
         let mut limit = limit;
         for _ in 0..30 {

@@ -12,7 +12,7 @@ pub(in crate::contact) const WITH_RING_AXIS: Vector3<f64> = Vector3::new(0.0, 0.
 /// An axial place and the radius of the surface there \[m\].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Station {
-    /// In the ring's frame or from the ball's centre.
+    /// Axial place in the ring's frame or from the ball's centre.
     pub z: f64,
     /// Distance at which defects are looked for: a rounding error to either side of an end, else 0.
     pub beside: f64,
@@ -29,16 +29,16 @@ pub struct Edge {
     pub side: f64,
     /// Radius of the fault circle \[m\].
     pub radius: f64,
-    /// How it moves along the axis, and with the ball.
+    /// Motion of the edge along the axis, and with the ball.
     course: EdgeCourse,
 }
 
 /// How the edges of an arc move.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum EdgeCourse {
-    /// Of an arc about the ring's axis: its width \[m\] and the slope of that along z.
+    /// An arc about the ring's axis: its width \[m\] and the slope of that along z.
     Width { width: f64, slope: f64 },
-    /// Of an arc that is fixed in a ball.
+    /// An arc that is fixed in a ball.
     Rim(Rim),
 }
 
@@ -62,7 +62,7 @@ impl Rim {
 }
 
 impl Edge {
-    /// How its angle turns along the axis \[rad/m\], on a surface of some radius and slope of that radius.
+    /// Change of the edge's angle along the axis \[rad/m\], on a surface of some radius and slope of that radius.
     pub fn turn(&self, radius: f64, slope: f64) -> f64 {
         match &self.course {
             EdgeCourse::Width { width, slope: of } => {
@@ -72,7 +72,7 @@ impl Edge {
         }
     }
 
-    /// How its angle turns by rotations of the ball that has it.
+    /// Change of the edge's angle by rotations of the ball that has it.
     pub(super) fn swing(&self) -> Vector3<f64> {
         match &self.course {
             EdgeCourse::Width { .. } => Vector3::z(),
@@ -84,14 +84,14 @@ impl Edge {
 /// The connected part of the absent arcs that holds a direction; overlapping defects are one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Arc {
-    /// Its lower end.
+    /// The arc's lower end.
     pub low: Edge,
-    /// Its upper end.
+    /// The arc's upper end.
     pub high: Edge,
 }
 
 impl Arc {
-    /// So far to both sides of a middle \[rad\], with fault circles of a radius \[m\].
+    /// An arc so far to both sides of a middle \[rad\], with fault circles of a radius \[m\].
     pub(super) fn about(middle: f64, half: f64, radius: f64, course: EdgeCourse) -> Self {
         let edge = |side: f64| Edge {
             angle: middle + side * half,
@@ -105,7 +105,7 @@ impl Arc {
         }
     }
 
-    /// What leaves nothing beside it.
+    /// An arc all the way round, which leaves nothing beside it.
     pub(super) fn all(middle: f64, radius: f64) -> Self {
         let course = EdgeCourse::Width {
             width: 0.0,

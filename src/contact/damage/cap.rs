@@ -35,7 +35,7 @@ use crate::contact::{V2, turned};
 /// A cap, compiled.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Cap {
-    /// Of the ball \[m\].
+    /// Radius of the ball \[m\].
     radius: f64,
     /// sin β and cos β.
     sin: f64,
@@ -43,7 +43,7 @@ pub(super) struct Cap {
     edges: CircleEdges,
 }
 
-/// What a slice has lost to a cap.
+/// Part of a slice that is lost to a cap.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Lost {
     Nothing,
@@ -100,7 +100,7 @@ impl Cuts for Cap {
         }
     }
 
-    /// It has a rim all round.
+    /// Length of the cap, none: it has a rim all round.
     fn length(&self) -> Option<f64> {
         None
     }
@@ -119,12 +119,12 @@ impl Cuts for Cap {
 }
 
 impl Cap {
-    /// Of a ball.
+    /// A cap of a ball, compiled.
     pub fn compiled(width: f64, edges: CircleEdges, bed: &Bed) -> AnyDamage {
         AnyDamage::Cap(Self::new(width, bed.radius, edges))
     }
 
-    /// So wide along the surface of a ball \[m\].
+    /// A cap so wide along the surface of a ball \[m\].
     fn new(width: f64, radius: f64, edges: CircleEdges) -> Self {
         let (sin, cos) = (width / (2.0 * radius)).sin_cos();
         Self {
@@ -159,7 +159,7 @@ impl Cap {
         outside <= 0.0 || n.dot(&e.xy()) >= outside.sqrt()
     }
 
-    /// What the slice at ζ of radius ρ has lost.
+    /// The loss of the slice at ζ of radius ρ.
     fn lost(&self, e: &Vector3<f64>, zeta: f64, rho: f64) -> Lost {
         let across = e.xy().norm();
         let c = (self.radius * self.cos - zeta * e.z) / (rho * across);

@@ -62,7 +62,7 @@ pub(super) struct Dent {
 }
 
 impl Dent {
-    /// Of a surface: a width and a length, a depth and the height of the rim.
+    /// A dent of a surface, compiled: a width and a length, a depth and the height of the rim.
     pub fn compiled(
         (width, length): (f64, Option<f64>),
         (depth, rim): (f64, f64),
@@ -191,7 +191,7 @@ struct DentPlace<'a> {
 struct RimMoments([Varied; 5]);
 
 impl RimMoments {
-    /// Up to the angle with this sine, from one where they are 0.
+    /// Integrals up to the angle with this sine, from one where they are 0.
     fn up_to(sin: Varied) -> Self {
         let held = Varied::constant(sin.value.signum());
         let s = if sin.value.abs() < 1.0 { sin } else { held };

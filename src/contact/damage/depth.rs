@@ -3,16 +3,16 @@
 use crate::contact::dual::Dual;
 use std::ops::{Add, Sub};
 
-/// By how much an element stands behind another \[m\], or a penetration: alone, or with what its gradient needs.
+/// Distance by which an element stands behind another \[m\], or a penetration: alone, or with what its gradient needs.
 pub(in crate::contact) trait Depth:
     Copy + Add<Output = Self> + Sub<Output = Self>
 {
-    /// Whether it has slopes.
+    /// Whether the depth has slopes.
     const SLOPES: bool;
-    /// Out of reach.
+    /// Depth out of reach.
     const NEVER: Self;
 
-    /// From its value and slopes.
+    /// A depth from its value and slopes.
     fn new(value: f64, by_z: f64, by_zeta: f64) -> Self;
 
     fn value(self) -> f64;
@@ -38,7 +38,7 @@ impl Depth for f64 {
     }
 }
 
-/// With its derivatives by the place z in the ring's frame, at a fixed slice of the ball, and by the slice ζ, at a fixed
+/// A depth with its derivatives by the place z in the ring's frame, at a fixed slice of the ball, and by the slice ζ, at a fixed
 /// place in the ring's frame.
 pub(in crate::contact) type Sloped = Dual<f64, 2>;
 

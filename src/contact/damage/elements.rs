@@ -30,7 +30,7 @@ pub(in crate::contact) enum FeatureShape {
     Circle {
         from_ring: V2,
         radius: f64,
-        /// How its centre moves along z, by length.
+        /// Motion of the centre along z, by length.
         slope: V2,
     },
 }
@@ -57,7 +57,7 @@ pub(in crate::contact) struct RingElement<D> {
     pub swing: Vector3<f64>,
 }
 
-/// One feature of the ring against one of the ball.
+/// A surface of the ring against one of the ball.
 #[derive(Clone, Copy)]
 pub(in crate::contact) struct ElementPair<D> {
     pub feature: RingElement<D>,
@@ -150,7 +150,7 @@ impl Facing<'_> {
             .flatten()
     }
 
-    /// All pairs of features that stand against each other at a slice.
+    /// All pairs of surfaces that stand against each other at a slice.
     pub(in crate::contact) fn element_pairs<D: Depth>(
         &self,
         node: &Node,
@@ -196,7 +196,7 @@ impl Facing<'_> {
         }
     }
 
-    /// What the ball's texture adds to penetrations in the plane, where the law counts those: drops are of smooth balls \[m\].
+    /// The ball's texture as it adds to penetrations in the plane, where the law counts those: drops are of smooth balls \[m\].
     fn raised_in_plane(&self) -> f64 {
         if self.common().is_some() {
             0.0
@@ -205,7 +205,7 @@ impl Facing<'_> {
         }
     }
 
-    /// What the waves' slope does in a direction and at a distance from the ring's centre.
+    /// Effect of the waves' slope in a direction and at a distance from the ring's centre.
     pub(super) fn wave_slope(&self, n: V2, distance: f64, slope: f64, arm: V2) -> WaveSlope {
         if self.race_side.waves.is_round() {
             return WaveSlope::default();

@@ -17,11 +17,11 @@ pub(in crate::contact) struct Facing<'a> {
     pub race_side: SurfaceSide<'a>,
     pub ball_side: SurfaceSide<'a>,
     pub law: &'a Law,
-    /// Of the ball \[m\].
+    /// Radius of the ball \[m\].
     pub radius: f64,
     pub b: &'a Motion,
     pub r: &'a Motion,
-    /// From the ring's centre to the ball's.
+    /// Vector from the ring's centre to the ball's.
     pub apart: V2,
     pub distance: f64,
     /// Axial place of the ball in the ring's frame.
@@ -30,14 +30,14 @@ pub(in crate::contact) struct Facing<'a> {
     pub n: V2,
     /// Direction of the ball in the ring's frame.
     pub on_ring: f64,
-    /// Of the race by its waves.
+    /// Raise of the race by its waves.
     pub raise: Raise<f64>,
-    /// Of the ball by its texture.
+    /// Raise of the ball by its texture.
     pub swell: Raise<f64>,
     /// Whether arcs where the race or the ball is absent may be met.
     pub ring_open: bool,
     pub ball_open: bool,
-    /// What damages smaller than the contact make of its elastic forces.
+    /// Scale of the contact's elastic forces by damages smaller than it.
     pub yields: Yield,
     pub section: Section<f64>,
 }
@@ -49,7 +49,7 @@ pub(in crate::contact) struct SurfaceSide<'a> {
     pub defects: &'a [SurfaceDefect],
 }
 
-/// One slice or node, before it is known what it meets.
+/// A slice or node, before it is known what it meets.
 #[derive(Clone, Copy)]
 pub(in crate::contact) struct Node {
     pub zeta: f64,
@@ -63,14 +63,14 @@ pub(in crate::contact) struct Node {
     pub groove: f64,
     /// Radius of the round race at z.
     pub torus_radius: f64,
-    /// By how much beside it defects are looked for (see [`Station`]).
+    /// Distance beside it within which defects are looked for (see [`Station`]).
     pub beside: f64,
-    /// What friction weighs here over the normal force.
+    /// Weight of friction here over the normal force.
     pub rubbing: f64,
 }
 
 impl Node {
-    /// On the race.
+    /// The node's station on the race.
     pub(super) fn on_ring(&self) -> Station {
         Station {
             z: self.z,
@@ -79,7 +79,7 @@ impl Node {
         }
     }
 
-    /// On the ball.
+    /// The node's station on the ball.
     pub(super) fn on_ball(&self) -> Station {
         Station {
             z: self.zeta,

@@ -40,7 +40,7 @@ use super::elements::ElementPair;
 use super::facing::{Facing, Node};
 use crate::contact::{Aside, Sink, V2, turned};
 
-/// To which body an axial end of a defect belongs.
+/// The body to which an axial end of a defect belongs.
 #[derive(Clone, Copy, PartialEq)]
 pub(in crate::contact) enum Owner {
     Ring,
@@ -51,7 +51,7 @@ pub(in crate::contact) enum Owner {
 pub(in crate::contact) const BESIDE: f64 = 1e-12;
 
 impl Facing<'_> {
-    /// What the meridional direction and the axial place have to say to an element's energy under the Hertz law.
+    /// Share of the meridional direction and the axial place in an element's energy under the Hertz law.
     pub(in crate::contact) fn tilt<S: Sink + ?Sized>(
         &self,
         node: &Node,
@@ -78,13 +78,13 @@ impl Facing<'_> {
         sink.aside(&self.turning((cos, sin), turning, shifting));
     }
 
-    /// What the slope of the ball's texture makes of an elastic force.
+    /// Force that the slope of the ball's texture makes of an elastic force.
     pub(in crate::contact) fn texture_force(&self, elastic: f64) -> Aside {
         let plane = turned(self.n) * (-elastic * self.swell.slope / self.distance);
         Aside::at(-self.apart, plane, 0.0)
     }
 
-    /// What the axial end of a defect at a node's place adds.
+    /// Force that the axial end of a defect at a node's place adds.
     pub(in crate::contact) fn end<S: Sink + ?Sized>(
         &self,
         node: &Node,
@@ -139,19 +139,19 @@ impl Facing<'_> {
         sum
     }
 
-    /// From derivatives of the energy by α' and, at fixed α', by dz.
+    /// Force from derivatives of the energy by α' and, at fixed α', by dz.
     fn turning(&self, (cos, sin): (f64, f64), by_angle: f64, by_z: f64) -> Aside {
         let (share, per_angle) = (self.yields.share, by_angle / self.section.l);
         self.central(-share * per_angle * sin, share * (per_angle * cos + by_z))
     }
 
-    /// From the derivative by α' of what pits release.
+    /// Force from the derivative by α' of what pits release.
     pub(super) fn turning_by(&self, by_angle: f64) -> Aside {
         let ((cos, sin), per_angle) = (self.section.normal, by_angle / self.section.l);
         self.central(-per_angle * sin, per_angle * cos)
     }
 
-    /// From derivatives of the energy by e and dz.
+    /// Force from derivatives of the energy by e and dz.
     fn central(&self, by_e: f64, by_z: f64) -> Aside {
         let sigma = self.race.sigma;
         let across = sigma * by_e * self.raise.slope / self.distance;

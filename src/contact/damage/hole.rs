@@ -50,7 +50,7 @@ pub(crate) struct PittedContact {
 }
 
 impl PittedContact {
-    /// Of Hertz's contact; E* by the approach of an ellipse of known axes.
+    /// The pitted contact of Hertz's contact; E* by the approach of an ellipse of known axes.
     pub fn of(hertz: &Hertz) -> Self {
         let (a, b) = (hertz.half_length, hertz.half_width);
         let (integral, _) = elliptic::complete(1.0 - (b / a).powi(2));
@@ -75,7 +75,7 @@ pub(in crate::contact) struct EnergyAt {
     pub by_y: f64,
 }
 
-/// What a damage does to the energy of a contact.
+/// Effect of a damage on the energy of a contact.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(in crate::contact) struct Released {
     /// V.
@@ -84,12 +84,12 @@ pub(in crate::contact) struct Released {
     pub gained: EnergyAt,
 }
 
-/// What damages smaller than a contact make of its elastic forces.
+/// Scale of a contact's elastic forces by damages smaller than it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::contact) struct Yield {
-    /// Of the forces, g and what is gained.
+    /// Share of the forces, g and what is gained.
     pub share: f64,
-    /// Of the energy, e^{−X} and what is gained.
+    /// Share of the energy, e^{−X} and what is gained.
     pub energy: f64,
     /// e^{−X}.
     pub left: f64,
@@ -117,7 +117,7 @@ impl PittedContact {
 }
 
 impl Yield {
-    /// Of a contact that has so much energy without its pits, and what these release (15.4).
+    /// The scale of a contact that has so much energy without its pits, and what these release (15.4).
     pub fn of(contact: &PittedContact, energy: f64, all: &[Released]) -> Self {
         let (_, force) = contact.pressed(energy);
         let sum = |of: fn(&Released) -> f64| all.iter().map(of).sum::<f64>();
@@ -140,7 +140,7 @@ pub(in crate::contact) struct Hole {
     opening: f64,
 }
 
-/// What a strip is integrated from and to: θ, sin θ and cos θ of both ends.
+/// Ends of a strip's integral: θ, sin θ and cos θ of both.
 struct StripEnds([(f64, f64, f64); 2]);
 
 impl StripEnds {
@@ -151,7 +151,7 @@ impl StripEnds {
 }
 
 impl Hole {
-    /// With half-axes across the race and along rolling.
+    /// A hole with half-axes across the race and along rolling.
     pub fn new(half: [f64; 2]) -> Self {
         let (least, most) = (half[0].min(half[1]), half[0].max(half[1]));
         let (_, integral) = elliptic::complete(1.0 - (least / most).powi(2));

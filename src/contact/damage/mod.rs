@@ -47,7 +47,7 @@ pub(crate) use released::{MOST_AT_ONCE, met_at_once};
 
 pub(crate) use toward::Toward;
 
-/// Over the largest half-angle, how far a defect is looked for: a race's radius changes by films, by some ten-thousandths.
+/// Factor on the largest half-angle within which a defect is looked for: a race's radius changes by films, by some ten-thousandths.
 const MARGIN: f64 = 1.01;
 
 /// A defect of a surface, compiled: places in the frame of its body.
@@ -65,7 +65,7 @@ pub struct SurfaceDefect {
     kind: AnyDamage,
 }
 
-/// What a damage lies in.
+/// The surface in which a damage lies.
 pub(crate) struct Bed {
     /// Axial place of the damage's middle, in the ring's frame or from the ball's centre \[m\].
     pub middle: f64,
@@ -78,7 +78,7 @@ pub(crate) struct Bed {
 }
 
 impl Bed {
-    /// Of a surface that has the same radius over the damage's length.
+    /// The bed of a surface that has the same radius over the damage's length.
     pub fn round(middle: f64, radius: f64, contacts: [PittedContact; 2]) -> Self {
         Self {
             middle,
@@ -89,7 +89,7 @@ impl Bed {
     }
 }
 
-/// All kinds.
+/// A compiled damage of any kind.
 #[derive(Debug, Clone, PartialEq)]
 enum AnyDamage {
     Patch(Patch),
@@ -99,7 +99,7 @@ enum AnyDamage {
 }
 
 impl AnyDamage {
-    /// Of a damage in its bed.
+    /// A damage compiled in its bed.
     ///
     /// # Panics
     /// For steep walls, in whose place a scene gets a patch before it is compiled.
@@ -154,7 +154,7 @@ impl AnyDamage {
     }
 }
 
-/// What is asked of a kind of damage. Where `e` is given, it is the direction of the damage's middle in the frame in which the ball that
+/// Questions to a kind of damage. Where `e` is given, it is the direction of the damage's middle in the frame in which the ball that
 /// has it is seen.
 trait DamageKind {
     /// The largest half-angle at which a contact may meet it in its bed, and a little more \[rad\].
@@ -175,7 +175,7 @@ trait DamageKind {
     /// The same in a mirror, z → −z.
     fn mirrored(&self) -> AnyDamage;
 
-    /// How it acts on contacts.
+    /// Action of the damage on contacts.
     fn acts(&self) -> Acts<'_>;
 }
 
@@ -210,13 +210,13 @@ trait Cuts {
 
 /// A damage smaller than its contacts.
 trait Releases {
-    /// Where it lies.
+    /// The place of the damage.
     fn bed(&self) -> &SmallBed;
 
-    /// Half of its extent across the race \[m\].
+    /// Half of the damage's extent across the race \[m\].
     fn across(&self) -> f64;
 
-    /// What it does to the energy of a contact with the outer (0) or the inner race (1) at an approach \[m\] and a place (x₀, y₀) of its
+    /// Effect on the energy of a contact with the outer (0) or the inner race (1) at an approach \[m\] and a place (x₀, y₀) of its
     /// middle in the contact \[m\].
     fn released(&self, race: usize, depth: f64, at: [f64; 2]) -> Released;
 }
@@ -302,7 +302,7 @@ impl SurfaceDefect {
         }
     }
 
-    /// Its two axial ends, in the ring's frame or from the ball's centre \[m\]; none of what has none.
+    /// The damage's two axial ends, in the ring's frame or from the ball's centre \[m\]; none of what has none.
     pub(super) fn ends(&self) -> impl Iterator<Item = f64> + Clone + use<> {
         let length = self.as_cuts().and_then(Cuts::length);
         let (middle, sides) = (
@@ -363,7 +363,7 @@ impl SurfaceDefect {
         }
     }
 
-    /// Whether it is smaller than its contacts.
+    /// Whether the defect is smaller than its contacts.
     pub(crate) fn is_small(&self) -> bool {
         self.as_releases().is_some()
     }
@@ -381,7 +381,7 @@ impl SurfaceDefect {
         small.across() > LONGEST * contact.half_length * load.cbrt() || released > MOST_RELEASED
     }
 
-    /// What a damage smaller than its contact with the outer (0) or the inner race (1) takes of the load at its middle, at one and the same
+    /// Load that a damage smaller than its contact with the outer (0) or the inner race (1) takes at its middle, at one and the same
     /// approach \[N\], and X.
     pub(crate) fn takes(&self, race: usize, contact: &Hertz, load: f64) -> Option<(f64, f64)> {
         let (small, depth) = (self.as_releases()?, contact.approach(load));

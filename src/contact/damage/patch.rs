@@ -37,7 +37,7 @@ impl CircleEdges {
 }
 
 impl Patch {
-    /// Of a surface.
+    /// A patch of a surface, compiled.
     pub fn compiled(length: f64, width: &Width, edges: CircleEdges) -> AnyDamage {
         AnyDamage::Patch(Self {
             length,

@@ -15,7 +15,7 @@ pub(super) struct Pit {
 }
 
 impl Pit {
-    /// Of a surface.
+    /// A pit of a surface, compiled.
     pub fn compiled(width: f64, length: Option<f64>, bed: &Bed) -> AnyDamage {
         let half = half_axes(width, length);
         AnyDamage::Pit(Self {

@@ -33,7 +33,7 @@ pub(crate) fn met_at_once(defects: &[SurfaceDefect]) -> usize {
     all.clone().map(from).max().unwrap_or(0)
 }
 
-/// Where a damage lies in a contact, and on which body.
+/// Place of a damage in a contact, and its body.
 #[derive(Clone, Copy)]
 struct SmallPlace {
     at: [f64; 2],
@@ -45,7 +45,7 @@ enum PlaceBody {
     Race {
         radius: f64,
     },
-    /// With the direction e.
+    /// A ball, with the direction e.
     Ball(Vector3<f64>),
 }
 
@@ -59,13 +59,13 @@ struct MetDamage<'a> {
 /// The damages that a contact meets which are smaller than it.
 pub(in crate::contact) struct MetDamages<'a>([Option<MetDamage<'a>>; MOST_AT_ONCE]);
 
-/// What damages do beside scaling the contact's forces.
+/// Effect of damages beside scaling the contact's forces.
 pub(in crate::contact) struct Moving {
     places: [Option<(SmallPlace, Released)>; MOST_AT_ONCE],
 }
 
 impl MetDamages<'_> {
-    /// What they make of a contact with the outer (0) or the inner race (1) that has so much elastic energy without them \[J\]: a share of
+    /// Effect on a contact with the outer (0) or the inner race (1) that has so much elastic energy without damages \[J\]: a share of
     /// its elastic forces, and more.
     pub fn release(&self, race: usize, energy: f64) -> Option<(Yield, Moving)> {
         let of = &self.0[0].as_ref()?.small.bed().contacts[race];
@@ -138,7 +138,7 @@ impl<'a> Facing<'a> {
         ]
     }
 
-    /// What the places of damages do.
+    /// Forces by the places of damages.
     pub(in crate::contact) fn place_forces<S: Sink + ?Sized>(&self, of: &Moving, sink: &mut S) {
         for (place, released) in of.places.iter().flatten() {
             let (lost, gained) = (&released.lost, &released.gained);

@@ -1,14 +1,14 @@
-//! Where a damage lies that is smaller than its contacts.
+//! Places of damages that are smaller than their contacts.
 
 use nalgebra::Vector3;
 
 use super::hole::PittedContact;
 use super::{Bed, MARGIN, SurfaceDefect};
 
-/// Where a damage lies that is smaller than its contacts.
+/// Place of a damage that is smaller than its contacts.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct SmallBed {
-    /// Of contacts with the outer and the inner race, where it can meet them.
+    /// Contacts with the outer and the inner race, where the damage can meet them.
     pub contacts: [PittedContact; 2],
     /// Radius of the surface there \[m\].
     pub radius: f64,
@@ -19,7 +19,7 @@ pub(super) struct SmallBed {
 }
 
 impl SmallBed {
-    /// Of a damage that is so long along rolling from its middle \[m\].
+    /// The bed of a damage that is so long along rolling from its middle \[m\].
     pub fn new(along: f64, bed: &Bed) -> Self {
         Self {
             contacts: bed.contacts,

@@ -8,16 +8,16 @@ use crate::contact::{Motion, V2, cross, wrapped};
 /// A direction in which a ball or a race is met, as its defects are asked about it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Toward<'a> {
-    /// From the body's mark \[rad\].
+    /// Angle from the body's mark \[rad\].
     pub(super) angle: f64,
-    /// In the ring's frame.
+    /// Direction in the ring's frame.
     pub(super) n: V2,
     /// The ball that it goes out from; none of a race.
     ball: Option<&'a Motion>,
 }
 
 impl<'a> Toward<'a> {
-    /// Of a race, at an angle from the ring's mark \[rad\].
+    /// The direction of a race, at an angle from the ring's mark \[rad\].
     pub fn race(angle: f64) -> Self {
         Self {
             angle,
@@ -26,7 +26,7 @@ impl<'a> Toward<'a> {
         }
     }
 
-    /// Of a ball, in a direction of the ring's frame with its angle \[rad\].
+    /// The direction of a ball, in the ring's frame with its angle \[rad\].
     pub fn ball(ball: &'a Motion, n: V2, direction: f64) -> Self {
         Self {
             angle: ball.angle_of(direction),
@@ -45,7 +45,7 @@ impl<'a> Toward<'a> {
         cross(self.n, e.xy()).atan2(self.n.dot(&e.xy()))
     }
 
-    /// How far it is from a defect's middle \[rad\].
+    /// Distance of the direction from a defect's middle \[rad\].
     pub fn aside(&self, defect: &SurfaceDefect) -> f64 {
         match self.pole(defect) {
             None => wrapped(self.angle - defect.angle),

@@ -8,7 +8,7 @@ use crate::contact::Pair;
 use crate::contact::slip::Moves;
 use crate::simd::{InstructionSet, Lanes};
 
-/// Of the slip at which a film's traction bends: the step of differences.
+/// Step of differences, as a share of the slip at which a film's traction bends.
 const STEP: f64 = 3e-3;
 
 impl Pair {

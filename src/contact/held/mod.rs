@@ -32,7 +32,7 @@ pub(crate) struct HeldElement {
     /// Relative growth of the elastic force with the penetration \[1/m\].
     hardening: Lanes,
     share: (Lanes, Lanes),
-    /// That of the velocities at which it was found.
+    /// Weight of friction at the velocities at which the element was found.
     rubbing: Lanes,
     slope: (Lanes, Lanes),
     /// Moments about the ball's centre of unit forces along n_e and t_e.
@@ -41,7 +41,7 @@ pub(crate) struct HeldElement {
     place: Lanes,
 }
 
-/// What traction laws read of an element beside its slip, where they do ([`super::Traction::reads_rolling`]).
+/// Rolling of an element, where traction laws read it beside its slip ([`super::Traction::reads_rolling`]).
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct HeldRolling {
     load: Lanes,
@@ -63,7 +63,7 @@ struct MovedElement {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct HeldElements {
     elements: Vec<HeldElement>,
-    /// As many, or none where the law reads slip alone.
+    /// Rolling of as many elements, or none where the law reads slip alone.
     rolling: Vec<HeldRolling>,
     rubbing: Rubbing,
 }
@@ -80,13 +80,13 @@ impl HeldElements {
     }
 }
 
-/// What all elements of a contact share beside their law.
+/// Quantities that all elements of a contact share beside their law.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Around {
     rolling: Rolling<Lanes>,
     /// Radii of ball and groove \[m\].
     radii: [Lanes; 2],
-    /// What the film does.
+    /// Effect of the film.
     pub oil: FilmEffect<Lanes>,
     /// Distance of the centres of ring and ball, and R cos α' \[m\].
     pub distance: Lanes,
@@ -94,7 +94,7 @@ pub(crate) struct Around {
 }
 
 impl Around {
-    /// That of the contact in one lane, in all lanes.
+    /// The quantities of the contact in one lane, in all lanes.
     #[inline(always)]
     pub fn of(&self, lane: usize) -> Self {
         let Self {
@@ -118,17 +118,17 @@ impl Around {
     }
 }
 
-/// Where eight held contacts are.
+/// Eight held contacts with their places.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct HeldContacts {
     /// Unit vector out of the ball at the contact.
     pub n_e: PlaneVector,
-    /// From the ring's centre to the ball's.
+    /// Vector from the ring's centre to the ball's.
     pub apart: PlaneVector,
     /// Contacts whose nodes are there; the others get none that press.
     pub regular: Mask,
     pub around: Around,
-    /// Their zones, along which what friction weighs under films is found for any velocities.
+    /// Zones of the contacts, along which what friction weighs under films is found for any velocities.
     whole: Whole<Lanes>,
     /// `arm` of how they move.
     arm: Lanes,
@@ -384,11 +384,11 @@ struct Holding<'a> {
     elements: &'a mut Vec<HeldElement>,
     rolling: &'a mut Vec<HeldRolling>,
     reads_rolling: bool,
-    /// Of the elastic law for an element.
+    /// Exponent of the elastic law for an element.
     exponent: f64,
     moves: &'a Moves<Lanes>,
     sigma: f64,
-    /// Of the balls.
+    /// Radii of the balls.
     radius: Lanes,
     regular: Mask,
 }

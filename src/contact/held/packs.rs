@@ -13,12 +13,12 @@ pub(crate) struct SlicePack {
     pub n_e: PlaneVector,
     pub element: HeldElement,
     pub rolling: HeldRolling,
-    /// What turns edges of the ball's own beside the ring's axis, along n_e and t_e (see [`Touch`]).
+    /// Axis by which edges of the ball's own turn beside the ring's axis, along n_e and t_e (see [`Touch`]).
     swing: PlaneVector,
 }
 
 impl SlicePack {
-    /// What a ball does that turns across the ring's axis at a relative twist in the frame (n_e, t_e, z, about z …): its own edges come
+    /// Approach by a ball that turns across the ring's axis at a relative twist in the frame (n_e, t_e, z, about z …): its own edges come
     /// nearer, without slip. What their moments do in turn is left out: few slices have such edges, and what they dampen is slow.
     #[inline(always)]
     pub fn approach<const N: usize>(&self, twist: &mut [Lanes; N]) {
@@ -48,13 +48,13 @@ pub(crate) struct SlicePacking<'a> {
     /// The contacts, of which a gothic arch has two: their lane, and what their slices share.
     pub contacts: &'a mut Vec<(usize, Around)>,
     pub lane: usize,
-    /// From the ring's centre to the ball's, of length 1.
+    /// Direction from the ring's centre to the ball's, of length 1.
     pub outwards: V2,
-    /// Of the elastic law for a slice.
+    /// Exponent of the elastic law for a slice.
     pub exponent: f64,
     /// Slices so far.
     pub count: usize,
-    /// What slices share beside their film.
+    /// Quantities that slices share beside their film.
     pub around: Around,
     /// Whether the next slice begins another contact.
     pub is_new: bool,

@@ -31,7 +31,7 @@ impl<const N: usize> Default for HeldSlope<N> {
 
 /// How a node's force on the ring changes with the velocity there.
 pub(super) struct Slope {
-    /// By the velocity along n_e, t_e and z.
+    /// Slope of the force by the velocity along n_e, t_e and z.
     pub force: [[Lanes; 3]; 3],
     /// Friction along the meridian by the same.
     pub meridian: [Lanes; 3],
@@ -130,7 +130,7 @@ impl<const N: usize> HeldSlope<N> {
     }
 }
 
-/// About z of components along n_e and t_e.
+/// Moment about z of components along n_e and t_e.
 #[inline(always)]
 pub(super) fn moment<const FMA: bool>(n: Lanes, t: Lanes, levers: PlaneVector) -> Lanes {
     levers[0].mul_add::<FMA>(n, levers[1] * t)

@@ -1,4 +1,4 @@
-//! Where a contact is cut into elements, and the direction of their normal forces.
+//! Cut of a contact into elements, and the direction of their normal forces.
 
 /// The line along which elements lie.
 #[derive(Debug, Clone, Copy, PartialEq)]

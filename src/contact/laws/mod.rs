@@ -81,7 +81,7 @@ impl Law {
         self.turns_balls() || self.damps()
     }
 
-    /// Where the ball is cut, by the elastic law.
+    /// The cut of the ball, by the elastic law.
     pub fn cut(&self) -> Cut {
         self.elastic.cut()
     }

@@ -1,4 +1,4 @@
-//! Where a ball touches a race that is given by points.
+//! Contact of a ball with a race that is given by points.
 //!
 //! A ball of radius R can touch a smooth curve at two places only across a *tight hollow*, whose curvature is above 1/R.
 //! Between two touching points the curve's tangent turns as far as the ball's surface does; were its curvature nowhere above
@@ -44,7 +44,7 @@ pub(crate) struct Before {
 /// Radius of a circle of curvature over the ball's, beyond which a race counts as flat, and below which as that of a ball in it.
 pub(in crate::contact) const FLAT: f64 = 1e3;
 pub(in crate::contact) const SNUG: f64 = 1.02;
-/// Of the ball's radius: how far beside it a race is looked at for its nominal curvature.
+/// Distance beside it, over the ball's radius, at which a race is looked at for its nominal curvature.
 const SMOOTH: f64 = 0.05;
 /// Places at which a part that is not plain is looked at for its nearest point.
 const LOOKS: usize = 24;
@@ -76,7 +76,7 @@ impl Contour {
         &self.curve
     }
 
-    /// Where the race begins and ends in its ring's frame \[m\].
+    /// Ends of the race in its ring's frame \[m\].
     pub fn ends(&self) -> [f64; 2] {
         self.curve.ends()
     }
@@ -92,7 +92,7 @@ impl Contour {
         matches!(&self.parts[..], [part] if part.plain)
     }
 
-    /// Which balls' centres, so far from the ring's axis less the waves and at such axial places, are where no contact means anything:
+    /// Balls whose centres, so far from the ring's axis less the waves and at such axial places, are where no contact means anything:
     /// pressed into the race by half their radius or more, or beside it. What is not a number is.
     pub(in crate::contact) fn loses(&self, radius: Lanes, d: Lanes, z: Lanes) -> Mask {
         let [low, high] = self.ends().map(Lanes::all);
@@ -101,7 +101,7 @@ impl Contour {
         z.above(low).and(high.above(z)).and(in_front).not()
     }
 
-    /// Which balls are not so far in front of the race that no point of it can be near.
+    /// Balls that are not so far in front of the race that no point of it can be near.
     pub(in crate::contact) fn may_touch(&self, radius: Lanes, d: Lanes) -> Mask {
         // Between points the race may stand out a little more.
         let reach = d * self.sigma + radius * 1.001;
@@ -186,7 +186,7 @@ impl Contour {
         })
     }
 
-    /// Where the distance from a ball's centre is least, by Newton's method within shrinking bounds.
+    /// Place where the distance from a ball's centre is least, by Newton's method within shrinking bounds.
     fn foot(&self, ball: &Before, part: Part) -> f64 {
         let (mut low, mut high, mut z) = self.bracket(ball, part);
         for _ in 0..STEPS {
@@ -220,7 +220,7 @@ impl Contour {
         z
     }
 
-    /// Where a ball would touch the nominal torus.
+    /// Place where a ball would touch the nominal torus.
     fn ahead(&self, ball: &Before) -> f64 {
         let Some(torus) = &self.nominal else {
             return ball.z;
@@ -273,7 +273,7 @@ fn nominal(curve: &Curve, sigma: f64, radius: f64, angle: f64) -> Option<Torus> 
     })
 }
 
-/// Where a race's normal is inclined by an angle, as near to its bottom as possible.
+/// Place where a race's normal is inclined by an angle, as near to its bottom as possible.
 fn inclined(curve: &Curve, sigma: f64, angle: f64) -> Option<f64> {
     let slope = -sigma * angle.tan();
     let off = |z: f64| curve.at(z).slope - slope;

@@ -26,7 +26,7 @@ const TERMS: usize = 9;
 /// at its bottom for points at a distance h.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Curve {
-    /// Where pieces begin, and where the last one ends.
+    /// Knots: where pieces begin, and where the last one ends.
     knots: Vec<f64>,
     pieces: Vec<Piece>,
     /// The piece that each of equally wide cells begins in.
@@ -37,7 +37,7 @@ pub(crate) struct Curve {
     per_length: f64,
 }
 
-/// Where a piece begins and the next one does, and its coefficients from the lowest power up.
+/// A piece: where it begins and the next one does, and its coefficients from the lowest power up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Piece {
     start: f64,
@@ -71,7 +71,7 @@ impl RacePoint {
 }
 
 impl Curve {
-    /// Through points that are in order; at least four.
+    /// The curve through points that are in order; at least four.
     pub fn through(z: &[f64], r: &[f64]) -> Self {
         let slopes = slopes(z, r);
         let piece = |k: usize| {
@@ -110,7 +110,7 @@ impl Curve {
         }
     }
 
-    /// Where it begins and ends \[m\].
+    /// Ends of the curve \[m\].
     pub fn ends(&self) -> [f64; 2] {
         [self.knots[0], self.knots[self.knots.len() - 1]]
     }

@@ -36,7 +36,7 @@ const FINENESS: usize = 12;
 const WHOLE: f64 = 6_755_399_441_055_744.0;
 
 impl HeightTable {
-    /// Of waves, by the plans of Fourier transforms that a planner keeps.
+    /// The table of waves, by the plans of Fourier transforms that a planner keeps.
     pub fn new(waves: &[Waviness], planner: &mut RealFftPlanner<f64>) -> Self {
         let knots = Self::knots_for(waves.iter().map(|wave| wave.order).max().unwrap_or(1));
         let plan = planner.plan_fft_inverse(knots);
@@ -77,13 +77,13 @@ impl HeightTable {
         cubic::<_, false>(self.around(at), t, self.per_radian)
     }
 
-    /// At eight angles.
+    /// Raises at eight angles.
     #[inline(always)]
     pub fn raises<const FMA: bool>(&self, angle: Lanes) -> Raise<Lanes> {
         Self::each::<FMA>([self; LANES], angle)
     }
 
-    /// Of eight tables of as many knots, each at its angle.
+    /// Raises of eight tables of as many knots, each at its angle.
     #[inline(always)]
     pub fn each<const FMA: bool>(tables: [&Self; LANES], angle: Lanes) -> Raise<Lanes> {
         let x = angle * tables[0].per_radian;

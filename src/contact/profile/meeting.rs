@@ -1,4 +1,4 @@
-//! One contact of a ball with a race through points: the ends of its zone.
+//! A contact of a ball with a race through points: the ends of its zone.
 
 use super::curve::{Curve, RacePoint};
 use super::zone::{Ends, Zone};
@@ -6,7 +6,7 @@ use super::{Chord, SHALLOW, Section, Torus};
 
 /// Steps of Newton's method that are always enough; three are the rule.
 pub(super) const STEPS: usize = 40;
-/// Of the ball's radius: how far along a chord its surface is looked at.
+/// Largest distance along a chord, over the ball's radius, at which its surface is looked at.
 pub(in crate::contact) const REACH: f64 = 0.98;
 
 /// A stretch of the race that a ball touches at one place at most.
@@ -15,7 +15,7 @@ pub(in crate::contact) struct Part {
     pub low: f64,
     /// Belongs to the next part, if there is one.
     pub high: f64,
-    /// Whether it is hollow all along, so that there is one nearest point only.
+    /// Whether the part is hollow all along, so that there is one nearest point only.
     pub plain: bool,
 }
 
@@ -36,7 +36,7 @@ impl RaceSurface<'_> {
     }
 }
 
-/// One contact of a ball with a race through points.
+/// A contact of a ball with a race through points.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::contact) struct Meeting<'a> {
     pub surface: RaceSurface<'a>,
@@ -44,7 +44,7 @@ pub(in crate::contact) struct Meeting<'a> {
     pub torus: Torus,
     /// The ball before it.
     pub section: Section<f64>,
-    /// Where the foot is \[m\].
+    /// Place of the foot \[m\].
     pub foot: f64,
 }
 

@@ -40,9 +40,9 @@ pub struct Torus {
     pub centre: f64,
     /// Groove radius r \[m\].
     pub r: f64,
-    /// Where the race ends towards −z, from the groove's centre \[m\].
+    /// End of the race towards −z, from the groove's centre \[m\].
     pub lowest: f64,
-    /// Where the race ends towards +z, from the groove's centre \[m\].
+    /// End of the race towards +z, from the groove's centre \[m\].
     pub highest: f64,
 }
 

@@ -8,9 +8,9 @@ use crate::simd::Lanes;
 /// How waves raise a race under a ball, or a ball before a race, or eight of them \[m\].
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Raise<T> {
-    /// Of the radius.
+    /// Height over the radius.
     pub height: T,
-    /// Its derivative by the angle R'(φ).
+    /// Derivative of the height by the angle, R'(φ).
     pub slope: T,
 }
 

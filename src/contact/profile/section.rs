@@ -26,7 +26,7 @@ pub(crate) struct Section<T> {
 }
 
 impl<T: Number> Section<T> {
-    /// From the centres' distances; where all is `SYMMETRIC` about the groove's middle, c is known to be 0 and e to be positive.
+    /// The section from the centres' distances; where all is `SYMMETRIC` about the groove's middle, c is known to be 0 and e to be positive.
     #[inline(always)]
     pub fn new<const FMA: bool, const SYMMETRIC: bool>(radius: T, r: T, e: T, c: T) -> Self {
         let (l, normal) = if SYMMETRIC {

@@ -9,21 +9,21 @@ use super::{HeightTable, Raise};
 use crate::scene::Waviness;
 use crate::simd::{LANES, Lanes, direction};
 
-/// What the radius of a race or ball has beside that of its round shape: a few waves, or a table of many.
+/// Waves: the radius of a race or ball beside that of its round shape, a few waves or a table of many.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Waves {
     list: Vec<Waviness>,
-    /// In place of the list.
+    /// Table in place of the list.
     table: Option<Arc<HeightTable>>,
 }
 
 impl Waves {
-    /// Of a list, wave by wave.
+    /// The waves of a list, wave by wave.
     pub fn of(list: Vec<Waviness>) -> Self {
         Self { list, table: None }
     }
 
-    /// Of a table.
+    /// The waves of a table.
     pub(crate) fn tabulated(table: HeightTable) -> Self {
         Self {
             list: Vec::new(),
@@ -31,7 +31,7 @@ impl Waves {
         }
     }
 
-    /// Of a table, if it is one.
+    /// The table, if the waves are one.
     pub(crate) fn table(&self) -> Option<&HeightTable> {
         self.table.as_deref()
     }
@@ -61,7 +61,7 @@ impl Waves {
         raise
     }
 
-    /// Under eight balls at places across the ring's axis, of a ring whose mark has turned by an angle \[rad\].
+    /// Raises under eight balls at places across the ring's axis, of a ring whose mark has turned by an angle \[rad\].
     #[inline(always)]
     pub(in crate::contact) fn under<const FMA: bool>(
         &self,

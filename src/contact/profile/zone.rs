@@ -12,14 +12,14 @@ pub(in crate::contact) const SHALLOW: f64 = 0.2;
 /// A zone that no shoulder cuts.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::contact) struct Zone<T> {
-    /// Half of its length along the common tangent \[m\].
+    /// Half of the zone's length along the common tangent \[m\].
     pub half: T,
     /// Height over the ball's centre of the line that it is cut along: of the common chord, or of the tangent \[m\].
     pub height: T,
 }
 
 impl<T: Number> Zone<T> {
-    /// On the chord that both circles have in common: where the ball's surface is in the race.
+    /// The zone on the chord that both circles have in common: where the ball's surface is in the race.
     #[inline(always)]
     pub fn on_chord(of: &Section<T>) -> Self {
         // The chord stands at R − sum from the ball's centre; without the cancellation in l² + R² − r².
@@ -31,7 +31,7 @@ impl<T: Number> Zone<T> {
         }
     }
 
-    /// On the common tangent, where the gap grows by κ u²/2.
+    /// The zone on the common tangent, where the gap grows by κ u²/2.
     #[inline(always)]
     pub fn on_tangent(of: &Section<T>, half_curvature: T) -> Self {
         Self {
@@ -40,7 +40,7 @@ impl<T: Number> Zone<T> {
         }
     }
 
-    /// Its ends along ζ, for a normal (cos α', sin α').
+    /// The zone's ends along ζ, for a normal (cos α', sin α').
     #[inline(always)]
     pub fn ends(&self, (cos, sin): (T, T)) -> (T, T) {
         let (middle, reach) = (self.height * sin, self.half * cos);
@@ -60,14 +60,14 @@ pub(in crate::contact) struct SurfacePoint<T> {
     /// ζ/R and ρ/R.
     pub sin: T,
     pub cos: T,
-    /// Their ratio, tan α of the slice.
+    /// Ratio of sine and cosine, tan α of the slice.
     pub tan: T,
     /// Width along ζ of a unit along the line that the surface is cut along.
     pub stretch: T,
 }
 
 impl<T: Number> SurfacePoint<T> {
-    /// Over u/R on a chord whose normal is (cos, sin).
+    /// The slope over u/R on a chord whose normal is (cos, sin).
     #[inline(always)]
     pub fn over<const FMA: bool>((normal_cos, normal_sin): (T, T), u: T) -> Self {
         let height = (-u).mul_add::<FMA>(u, u.same(1.0)).sqrt();

@@ -52,7 +52,7 @@ impl Halves {
         }
     }
 
-    /// As [`Product::weights`], of a zone about u = 0.
+    /// Weights as of [`Product::weights`], of a zone about u = 0.
     #[inline(always)]
     pub fn weights<T: Number, const FMA: bool>(
         &self,

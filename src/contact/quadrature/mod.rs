@@ -1,4 +1,4 @@
-//! Where a ball is cut: fixed slices of equal width, or quadrature nodes fitted to the zone of contact, and their weights for
+//! Cutting of a ball: fixed slices of equal width, or quadrature nodes fitted to the zone of contact, and their weights for
 //! friction.
 
 mod halves;
@@ -49,14 +49,14 @@ pub struct Rules {
     low: Rule,
     high: Rule,
     neither: Rule,
-    /// What their nodes weigh for friction, if there are [`LEAST`] to [`MOST`].
+    /// Weights of the nodes for friction, if there are [`LEAST`] to [`MOST`].
     products: Option<Arc<[Product; 4]>>,
     halves: Option<Arc<Halves>>,
 }
 
 /// Fewest nodes of a piece that weigh for friction by themselves: a straight line through two says too little of the force.
 const LEAST: usize = 3;
-/// Most of them: more do without.
+/// Largest number of nodes that are weighed for friction: more do without.
 pub(super) const MOST: usize = 64;
 
 /// Nodes beyond those of a rule by which friction is resolved, where it is not known how steep it is. 1/√(u² + w²) has poles at
@@ -88,7 +88,7 @@ impl Rules {
 
     /// The same for the friction of films, which peaks where slip vanishes.
     pub(crate) fn for_films(m: usize, exponent: f64) -> Self {
-        /// Beside needles in closed form a few nodes more do: the wheel bearing's signal in oil errs over 6 ms by 0.7 % with 20 and with 8,
+        /// Number of nodes more that do beside needles in closed form: the wheel bearing's signal in oil errs over 6 ms by 0.7 % with 20 and with 8,
         /// by 0.9 % with 4, by 1.9 % with none.
         const BESIDE: usize = 4;
         Self::known(m, exponent, BESIDE, true)
@@ -157,7 +157,7 @@ impl Rules {
         }
     }
 
-    /// What the nodes of that rule weigh for friction.
+    /// Weights for friction of the nodes of that rule.
     pub(super) fn product(&self, sealed: [bool; 2]) -> Option<&Product> {
         let [both, low, high, neither] = self.products.as_deref()?;
         Some(match sealed {
@@ -168,7 +168,7 @@ impl Rules {
         })
     }
 
-    /// What those of a whole zone weigh.
+    /// Weights of the nodes of a whole zone.
     pub(super) fn halves(&self) -> Option<&Halves> {
         self.halves.as_deref()
     }
@@ -179,7 +179,7 @@ impl Rules {
     }
 }
 
-/// What the nodes of all rules weigh for friction, by rules of so many nodes more.
+/// Weights for friction of the nodes of all rules, by rules of so many nodes more.
 fn products(rules: &[Rule; 4], more: usize, exponent: f64) -> [Product; 4] {
     let [both, low, high, neither] = rules;
     let finer = Rules::nodes(both.len() + more, exponent);

@@ -14,14 +14,14 @@ use crate::simd::Number;
 /// Powers of x whose integrals are kept, at most.
 const POWERS: usize = 28;
 
-/// What the nodes of a rule take of needles: their projection onto polynomials, ∫ ω K Σ p_j(x_i) p_j dx, by the integrals of K times
+/// Shares of a rule's nodes in needles: their projection onto polynomials, ∫ ω K Σ p_j(x_i) p_j dx, by the integrals of K times
 /// powers of x; p_j are orthonormal under ω. For few nodes these are all polynomials that the nodes can distinguish, as of a
 /// [`Product`](super::Product); of many the force has nothing left beyond.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Moments {
     /// Coefficients of ω Σ p_j(x_i) p_j, those of one node after the other.
     coefficients: Vec<f64>,
-    /// How many each has.
+    /// Number of coefficients of each node.
     count: usize,
 }
 
@@ -32,7 +32,7 @@ impl Moments {
     /// Degree of the p_j at most: of higher ones sums of powers have no digits left.
     const DEGREE: usize = 15;
 
-    /// Of a rule whose ω is (1 + x)^low (1 − x)^high.
+    /// The moments of a rule whose ω is (1 + x)^low (1 − x)^high.
     pub fn new(rule: &Rule, [low, high]: [f64; 2]) -> Self {
         let weight = weight([low, high]);
         let at = |x: f64| (1.0 + x).powf(low) * (1.0 - x).powf(high);
@@ -64,14 +64,14 @@ impl Moments {
         powers
     }
 
-    /// What a node takes.
+    /// The share of a node.
     #[inline(always)]
     pub fn at<T: Number, const FMA: bool>(&self, node: usize, powers: &Powers<T>) -> T {
         let (even, odd) = self.halves::<T, FMA>(node, powers);
         even + odd
     }
 
-    /// The parts of it by even and by odd powers.
+    /// Parts of the share by even and by odd powers.
     #[inline(always)]
     pub fn halves<T: Number, const FMA: bool>(&self, node: usize, powers: &Powers<T>) -> (T, T) {
         let mut parts = [powers[0].same(0.0); 2];

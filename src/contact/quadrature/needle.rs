@@ -33,11 +33,11 @@ const TINY: f64 = 1e-300;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Needles<T> {
     needles: [Needle<T>; 2],
-    /// How many there are: none or one wherever spin governs slip.
+    /// Number of needles: none or one wherever spin governs slip.
     count: usize,
 }
 
-/// One of them; `size` is 0 where there is none.
+/// A needle; `size` is 0 where there is none.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Needle<T> {
     /// x_0.
@@ -55,7 +55,7 @@ pub(super) struct Needle<T> {
 }
 
 impl<T: Number> Needles<T> {
-    /// Those of the slip along a zone about a centre, `half` to both sides \[m\].
+    /// The needles of the slip along a zone about a centre, `half` to both sides \[m\].
     #[inline(always)]
     pub fn of<const FMA: bool>(slip: &Slip<T>, centre: T, half: T) -> Self {
         let zone = CutZone::new::<FMA>(slip, centre, half);
@@ -87,7 +87,7 @@ impl<T: Number> Needles<T> {
         }
     }
 
-    /// Their integrals over the zone times powers of x.
+    /// Integrals of the needles over the zone times powers of x.
     #[inline(always)]
     pub fn moments<const FMA: bool>(&self, to: &mut [T]) {
         let [first, second] = &self.needles;
@@ -115,7 +115,7 @@ impl<T: Number> Needles<T> {
         }
     }
 
-    /// Their sum at x.
+    /// Sum of the needles at x.
     #[inline(always)]
     pub fn at<const FMA: bool>(&self, x: T) -> T {
         let [first, second] = &self.needles;
@@ -153,14 +153,14 @@ impl<'a, T: Number> CutZone<'a, T> {
     }
 }
 
-/// over/under, which is finite where both vanish.
+/// Quotient over/under, which is finite where both vanish.
 #[inline(always)]
 fn quotient<T: Number, const FMA: bool>(over: T, under: T) -> T {
     over * under / under.mul_add::<FMA>(under, under.same(TINY))
 }
 
 impl<T: Number> Needle<T> {
-    /// Near x = over/under, if that lies near the zone, and where it is `there`.
+    /// The needle near x = over/under, if that lies near the zone, and where it is `there`.
     #[inline(always)]
     fn of<const FMA: bool>(
         zone: &CutZone<'_, T>,
@@ -205,7 +205,7 @@ impl<T: Number> Needle<T> {
         }
     }
 
-    /// Whether it is there for any contact.
+    /// Whether the needle is there for any contact.
     #[inline(always)]
     fn is_any(&self) -> bool {
         self.size.range().1 > 0.0
@@ -259,7 +259,7 @@ impl<T: Number> Needle<T> {
     }
 }
 
-/// What is known of a needle before its integral over the zone times x^n.
+/// Quantities known of a needle before its integral over the zone times x^n.
 ///
 /// With I_n = ∫ x^n k, R_n = ∫ x^n r, e_n = ∫ x^n and V_n = ∫ x^n y² k = R_n − γ e_n − μ² I_n, which is k (r² − γ²) = r − γ,
 ///

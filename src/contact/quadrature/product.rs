@@ -41,7 +41,7 @@ pub(in crate::contact) struct Product {
     pub(super) fine: Vec<f64>,
     /// Λ_j ℓ_i(t_j)/λ_i, of two nodes i and i + 1 for all j, then of the next two; 0 for a last one that is not there.
     shares: Vec<[f64; 2]>,
-    /// What its nodes take of K's needles, where K is that of films.
+    /// Shares of the nodes in K's needles, where K is that of films.
     pub(super) moments: Option<Moments>,
 }
 
@@ -51,7 +51,7 @@ impl Product {
         self.moments = Some(Moments::new(rule, ends));
     }
 
-    /// From a rule and a finer one for the same weight function ω, which both are divided by.
+    /// The weights from a rule and a finer one for the same weight function ω, which both are divided by.
     pub(super) fn new(rule: &Rule, finer: &Rule, weight: impl Fn(f64) -> f64) -> Self {
         let lagrange = |i: usize, t: f64| -> f64 {
             let others = rule.iter().enumerate().filter(|(k, _)| *k != i);

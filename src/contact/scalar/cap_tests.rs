@@ -10,7 +10,7 @@ use crate::contact::{
 };
 use crate::scene::{Damage, Defect, Floor, Friction, Material, Surface, WidthProfile};
 
-/// What a contact does to its ball, and of it what normal forces and friction take out.
+/// Effect of a contact on its ball, and of it what normal forces and friction take out.
 #[derive(Default)]
 struct ContactParts {
     energy: f64,
@@ -63,7 +63,7 @@ struct Pressed {
 }
 
 impl Pressed {
-    /// By 15 µm, at an angle to the plane.
+    /// A ball pressed in by 15 µm, at an angle to the plane.
     fn at(race: &Torus, angle: f64) -> Self {
         let (l, (sin, cos)) = (race.r - RADIUS + 15e-6, angle.sin_cos());
         let direction = V2::new(0.4_f64.cos(), 0.4_f64.sin());

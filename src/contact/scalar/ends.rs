@@ -1,4 +1,4 @@
-//! Where the zones of elements end inside a defect: places at which a penetration changes its sign.
+//! Ends of the zones of elements inside a defect: places at which a penetration changes its sign.
 //!
 //! The penetration is evaluated at equal steps over a piece of a contact's zone. Where the middle one of three values is nearest to
 //! zero, the extremum of the penetration, which is nearly a parabola, is found. Otherwise a zone shorter than a step, such as that
@@ -15,7 +15,7 @@ const CLOSE: f64 = 1e-9;
 const MOST_ENDS: usize = 16;
 
 impl OneContact<'_> {
-    /// Where a penetration of any element changes its sign within a piece, in order.
+    /// Places where a penetration of any element changes its sign within a piece, in order.
     pub(super) fn zone_ends(
         &self,
         line: &Line,
@@ -67,7 +67,7 @@ impl OneContact<'_> {
     }
 }
 
-/// Where a parabola through three values, a step apart, turns nearest to zero, in steps from the middle one; none where they
+/// Place where a parabola through three values, a step apart, turns nearest to zero, in steps from the middle one; none where they
 /// differ in sign or the middle one is not the nearest.
 fn turning_point([a, b, c]: [f64; 3]) -> Option<f64> {
     let alike = (a > 0.0) == (b > 0.0) && (b > 0.0) == (c > 0.0);

@@ -106,7 +106,7 @@ fn off(pair: &Pair, ball: &BallSide, place: [f64; 5]) -> f64 {
     worst
 }
 
-/// Of so many waves, of a tenth of a micrometre.
+/// Waves of a ball: as many around it as the order, of a tenth of a micrometre; none of order 0.
 fn wave_of_ball(order: u32) -> Waves {
     let wave = Waviness {
         order,
@@ -215,7 +215,7 @@ fn forces_of_dents_are_the_gradient_of_the_energy() {
     ]);
 }
 
-/// Of race and ball at once, beside waves of both, at contacts steep and light.
+/// Forces of damages of race and ball at once, beside waves of both, at contacts steep and light.
 fn forces_of_small_damages([of_race, of_ball]: [Damage; 2]) {
     let mut worst: f64 = 0.0;
     for is_hertz in [true, false] {

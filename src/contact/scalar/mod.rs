@@ -1,4 +1,4 @@
-//! One ball on one race: finds the zone of contact, and cuts it into slices.
+//! Evaluation of one ball on one race: finds the zone of contact, and cuts it into slices.
 
 #[cfg(test)]
 mod cap_tests;
@@ -28,16 +28,16 @@ use super::{
     Toward, V2, Waves, ZoneSlices, turned,
 };
 
-/// What all contacts of a row's balls with one race share.
+/// Quantities that all contacts of a row's balls with one race share.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pair {
     /// The race: a torus, or what is like a race of another shape where balls nominally touch it.
     pub race: Torus,
-    /// Its shape.
+    /// Shape of the race.
     pub shape: Shape,
-    /// Its waviness.
+    /// Waviness of the race.
     pub waves: Waves,
-    /// What they follow.
+    /// Law of the contacts.
     pub law: Law,
     /// Slices or nodes of a contact.
     pub slices: ZoneSlices,
@@ -45,12 +45,12 @@ pub struct Pair {
     pub defects: Vec<SurfaceDefect>,
 }
 
-/// What belongs to the ball.
+/// Quantities of a contact that belong to the ball.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BallSide {
     /// Radius \[m\].
     pub radius: f64,
-    /// Its texture, around the ring's axis.
+    /// Texture of the ball, around the ring's axis.
     pub waves: Waves,
     /// Defects of the ball, in its frame.
     pub defects: Vec<SurfaceDefect>,
@@ -66,7 +66,7 @@ impl BallSide {
         }
     }
 
-    /// Whether it is smooth and has no defect.
+    /// Whether the race is smooth and has no defect.
     pub(crate) fn is_whole(&self) -> bool {
         self.waves.is_round() && self.defects.is_empty()
     }
@@ -86,7 +86,7 @@ impl Pair {
         self.law.traction.is_some_and(|law| law.reads_rolling())
     }
 
-    /// All forces between a ball and the race of its ring.
+    /// Evaluates all forces between a ball and the race of its ring.
     pub fn evaluate(&self, ball: &BallSide, b: &Motion, r: &Motion, sink: &mut dyn Sink) {
         self.evaluate_into(ball, b, r, sink);
     }
@@ -151,7 +151,7 @@ impl Pair {
         }
     }
 
-    /// One contact with a race through points.
+    /// Evaluates a contact with a race through points.
     fn meet<S: Sink + ?Sized>(
         &self,
         ball: &BallSide,
@@ -300,7 +300,7 @@ impl Pair {
 
 /// A ball as it stands before a ring.
 struct Standing {
-    /// From the ring's centre to the ball's, and how far.
+    /// Vector from the ring's centre to the ball's, and its length.
     apart: V2,
     distance: f64,
     /// Axially, in the ring's frame.
@@ -308,9 +308,9 @@ struct Standing {
     /// The unit vector across the axis and, where anything depends on it, its angle.
     n: V2,
     angle: f64,
-    /// Of the race by its waves.
+    /// Raise of the race by its waves.
     raise: Raise<f64>,
-    /// Of the ball by its texture.
+    /// Raise of the ball by its texture.
     swell: Raise<f64>,
 }
 
@@ -319,12 +319,12 @@ struct Standing {
 struct OneContact<'a> {
     facing: Facing<'a>,
     pair: &'a Pair,
-    /// Along the line, if there is friction; on a curve through points that along the circle of curvature.
+    /// Slip along the line, if there is friction; on a curve through points that along the circle of curvature.
     slip: Option<Slip<f64>>,
     /// The place on the line that slip is counted from: the middle of the zone.
     middle: f64,
     rolling: Rolling<f64>,
-    /// What its film does.
+    /// Effect of the contact's film.
     oil: FilmEffect<f64>,
 }
 

@@ -6,7 +6,7 @@ use crate::contact::kernel::{self, ElementState};
 use crate::contact::{Aside, Sink, Touch, V2, cross, turned};
 
 impl OneContact<'_> {
-    /// One slice against whatever it meets.
+    /// Presses one slice against whatever it meets.
     pub(in crate::contact) fn slice<S: Sink + ?Sized>(&self, node: &Node, sink: &mut S) {
         if node.depth <= 0.0 {
             return;
@@ -113,7 +113,7 @@ impl OneContact<'_> {
         true
     }
 
-    /// What the force of an element depends on, from its elastic force and penetration.
+    /// State on which the force of an element depends, from its elastic force and penetration.
     #[inline]
     fn state<D: Depth>(
         &self,

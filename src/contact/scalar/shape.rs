@@ -48,7 +48,7 @@ pub(in crate::contact) enum Kind {
 pub(in crate::contact) struct Flank {
     /// Inclination of the normal of a resting ball towards +z \[rad\]: the shim angle, or less than 0 for the flank at −z.
     pub angle: f64,
-    /// Where it meets the other flank in the ring's frame \[m\].
+    /// Place where the flank meets the other in the ring's frame \[m\].
     pub cusp: f64,
     /// The other flank, on the first of the two: a race with laws of its own, since it may have another radius.
     pub other: Option<Pair>,
@@ -129,7 +129,7 @@ impl Pair {
         std::iter::once(self).chain(self.other_flank())
     }
 
-    /// Whether it is a curve through points.
+    /// Whether the shape is a curve through points.
     pub(crate) fn is_through_points(&self) -> bool {
         matches!(self.shape.0, Kind::Points { .. })
     }
@@ -215,7 +215,7 @@ impl Pair {
         }
     }
 
-    /// Where the common normal of a ball that has left the race meets it, and where the race ends: from the middle of its groove,
+    /// Place where the common normal of a ball that has left the race meets it, and where the race ends: from the middle of its groove,
     /// or from its own; none for a ball that is in it.
     pub(crate) fn left(&self, radius: f64, d: f64, z: f64) -> Option<(f64, [f64; 2])> {
         let race = &self.race;
@@ -241,7 +241,7 @@ impl Pair {
         left.then_some((point, [lowest, highest]))
     }
 
-    /// Where the race ends in its ring's frame \[m\].
+    /// Ends of the race in its ring's frame \[m\].
     fn ends(&self) -> [f64; 2] {
         let Torus {
             centre,
@@ -262,7 +262,7 @@ impl Pair {
         }
     }
 
-    /// Which of eight balls, so far from the ring's axis less the race's waves and at such axial places, may touch a race that is no
+    /// Masks of eight balls, so far from the ring's axis less the race's waves and at such axial places, that may touch a race that is no
     /// torus, and which of them are where no contact means anything. What is not a number does and is.
     pub(in crate::contact) fn near_shape(&self, radius: Lanes, d: Lanes, z: Lanes) -> [Mask; 2] {
         if let Kind::Points { contour, .. } = &self.shape.0 {
@@ -294,7 +294,7 @@ impl Pair {
     }
 }
 
-/// Where two flanks meet: between their centres, where their circles cut.
+/// Place where two flanks meet: between their centres, where their circles cut.
 fn cusp(low: &Pair, high: &Pair) -> Option<f64> {
     let apart =
         |z: f64| Some(low.race.groove(z)? * low.race.sigma + low.race.a - high.race.radius(z)?);

@@ -35,13 +35,13 @@ enum Along {
 }
 
 impl Line {
-    /// Along the ball's surface.
+    /// The line along the ball's surface.
     pub(super) fn along_ball(section: &Section<f64>) -> Self {
         let (chord, ends) = Chord::of(section);
         Self::along_chord(chord, ends)
     }
 
-    /// Along a chord, between the ends of a zone.
+    /// The line along a chord, between the ends of a zone.
     pub(super) fn along_chord(
         chord: Chord,
         [(low, low_sealed), (high, high_sealed)]: Ends,
@@ -54,7 +54,7 @@ impl Line {
         }
     }
 
-    /// Along the common tangent, where the gap has some curvature.
+    /// The line along the common tangent, where the gap has some curvature.
     pub(super) fn along_tangent(curvature: f64, section: &Section<f64>) -> Option<Self> {
         if section.e <= 0.0 || section.approach <= 0.0 {
             return None;
@@ -73,7 +73,7 @@ impl Line {
         })
     }
 
-    /// Its ends along ζ.
+    /// Ends of the line along ζ.
     pub(super) fn ends(&self) -> [f64; 2] {
         [self.low, self.high].map(|u| self.zeta(u).0)
     }
@@ -83,7 +83,7 @@ impl Line {
         f64::midpoint(self.low, self.high)
     }
 
-    /// Whether it is the common chord or tangent, and not the ball's axis in place of one.
+    /// Whether the line is the common chord or tangent, and not the ball's axis in place of one.
     pub(super) fn is_common(&self, section: &Section<f64>) -> bool {
         match &self.along {
             Along::Surface(chord) => chord.normal == section.normal,
@@ -91,12 +91,12 @@ impl Line {
         }
     }
 
-    /// Whether it is the common tangent.
+    /// Whether the line is the common tangent.
     fn is_tangent(&self) -> bool {
         matches!(self.along, Along::Tangent { .. })
     }
 
-    /// Half of its length, where the penetration vanishes at both ends of a zone.
+    /// Half of the line's length, where the penetration vanishes at both ends of a zone.
     pub(super) fn half(&self, section: &Section<f64>) -> Option<f64> {
         let whole = self.is_common(section) && self.sealed == [true; 2];
         whole.then_some((self.high - self.low) / 2.0)
@@ -158,7 +158,7 @@ impl OneContact<'_> {
         }
     }
 
-    /// What the axial end of a defect at a place ζ of a line adds.
+    /// Adds the force of the axial end of a defect at a place ζ of a line.
     fn end<S: Sink + ?Sized>(&self, (line, zeta): (&Line, f64), owner: Owner, sink: &mut S) {
         if let Some(node) = self.node_of(line, zeta) {
             self.facing.end(&node, owner, sink);

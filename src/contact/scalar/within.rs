@@ -17,9 +17,9 @@ pub(crate) struct Sighted<'a> {
 /// Normal force of a contact that stands over a defect \[N\].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct LoadWithin {
-    /// Of all slices.
+    /// Load of all slices.
     pub load: f64,
-    /// Of those where the surface is absent.
+    /// Load of the slices where the surface is absent.
     pub within: f64,
     /// Axial place of the middle of all force, in the frame of the defect's body \[m\]; NaN without load.
     pub place: f64,

@@ -10,7 +10,7 @@ use crate::simd::{LANES, Simd, Vector, Wide};
 #[derive(Debug, Clone)]
 pub(super) struct AxiallyFixedRow {
     row: usize,
-    /// Its first ball among all.
+    /// The row's first ball among all.
     first: usize,
     count: usize,
     races: [AxiallyFixedSide; 2],
@@ -28,7 +28,7 @@ struct AxiallyFixedSide {
 }
 
 impl AxiallyFixedRow {
-    /// None where a contact has no closed form.
+    /// The row; none where a contact has no closed form.
     pub fn new(model: &Model, row: usize, kind: &Guarantees) -> Option<Self> {
         let compiled = &model.rows[row];
         let balls = compiled.balls();
@@ -66,13 +66,13 @@ impl AxiallyFixedRow {
         self.row
     }
 
-    /// Its number and the forms for both races, if these are round and nothing has a defect.
+    /// The row's number and the forms for both races, if these are round and nothing has a defect.
     pub fn plain(&self) -> Option<(usize, [InPlane; 2])> {
         let forms = || self.races.each_ref().map(|side| side.form.clone());
         (!self.must_look).then(|| (self.row, forms()))
     }
 
-    /// Whether its races are anywhere raised by waves, or something has defects.
+    /// Whether the row's races are anywhere raised by waves, or something has defects.
     pub fn must_look(&self) -> bool {
         self.must_look
     }
@@ -108,9 +108,9 @@ impl AxiallyFixedRow {
     }
 }
 
-/// What the evaluation of a row yields besides the forces on its balls.
+/// Results of the evaluation of a row besides the forces on its balls.
 pub(super) struct AxiallyFixedSums<'a> {
-    /// On the two rings.
+    /// Forces on the two rings.
     pub rings: &'a mut [[f64; DOFS]; 2],
     /// Contacts that are left to be evaluated one by one.
     pub singles: &'a mut Vec<Single>,
@@ -147,7 +147,7 @@ impl Wide for EvaluateAxiallyFixed<'_> {
 }
 
 impl EvaluateAxiallyFixed<'_> {
-    /// All balls; `LOOK` where one of their races is raised, or a surface not whole; `MIDDLE` where they are in the
+    /// Sums over all balls; `LOOK` where one of their races is raised, or a surface not whole; `MIDDLE` where they are in the
     /// middle of both grooves.
     #[allow(clippy::inline_always)]
     #[inline(always)]

@@ -11,24 +11,24 @@ use crate::simd::{LANES, Lanes, Mask, Task};
 /// Constants of all contacts with one ring.
 #[derive(Debug, Clone)]
 pub(crate) struct SideConstants {
-    /// Those of each ball, by its number among all.
+    /// Constants of each ball, by its number among all.
     pub balls: Vec<Constants<f64>>,
-    /// What the balls of a class of rows share, by class.
+    /// Constants that the balls of a class of rows share, by class.
     classes: Vec<ClassConstants>,
-    /// Of the films of rows, where they have any.
+    /// Films of rows, where they have any.
     films: Vec<Option<FilmNumbers<f64>>>,
     /// The rows of balls.
     rows: Vec<usize>,
 }
 
-/// What the contacts of a class of rows share.
+/// Constants that the contacts of a class of rows share.
 // Each is a question of its own.
 #[allow(clippy::struct_excessive_bools)]
 #[derive(Debug, Clone)]
 struct ClassConstants {
     /// Constants of the first ball in all lanes.
     first: Constants<Lanes>,
-    /// Whether those of all balls are the same but for the axial place, so that nothing else need be gathered.
+    /// Whether the constants of all balls are the same but for the axial place, so that nothing else need be gathered.
     alike: bool,
     /// Whether any race has waves.
     wavy: bool,
@@ -48,7 +48,7 @@ pub(crate) struct Touching {
     pub swell: Raise<f64>,
 }
 
-/// Up to eight contacts, first those with the outer ring and then those with the inner; the last one fills the lanes that are left.
+/// Group of up to eight contacts, first those with the outer ring and then those with the inner; the last one fills the lanes that are left.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Group {
     /// The class of their rows.
@@ -309,7 +309,7 @@ pub(super) struct EvaluateEight<'a> {
 }
 
 impl EvaluateEight<'_> {
-    /// One of them, as `TILTED` says before a ring that may tilt.
+    /// Evaluates one group, as `TILTED` says before a ring that may tilt.
     pub fn run<const TILTED: bool>(&self, group: &mut Group) {
         let curve = self.model.rows[group.class].pairs[group.race(0)].hollow_curve();
         let (instructions, of) = (self.model.instructions, self);
@@ -360,7 +360,7 @@ impl Task for ToScene<'_> {
 }
 
 impl<const TILTED: bool> Eight<'_, TILTED> {
-    /// What is gathered of the contacts.
+    /// Gathers the contacts.
     // Compiled for the instruction set that runs it.
     #[allow(clippy::inline_always)]
     #[inline(always)]

@@ -6,17 +6,17 @@ use crate::forces::Table;
 use crate::model::{BodyId, DOFS, Dof, Model, Race};
 use crate::simd::{LANES, Lanes, Mask, Task};
 
-/// Up to eight neighbours of a row.
+/// Neighbours of a row, up to eight.
 #[derive(Debug, Clone)]
 pub(super) struct Neighbours {
     pub row: usize,
     pub first: usize,
     radius: Lanes,
-    /// Which lanes are balls.
+    /// Lanes that are balls.
     filled: Mask,
-    /// Which of them have defects of their own.
+    /// Lanes of balls that have defects of their own.
     defective: Mask,
-    /// Whether they have a texture.
+    /// Whether the balls have a texture.
     textured: bool,
     /// Constants of their contacts with the outer and with the inner race.
     constants: [Constants<Lanes>; 2],

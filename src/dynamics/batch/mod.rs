@@ -1,4 +1,4 @@
-//! All contacts of an evaluation: those that touch are found, gathered by eights and evaluated together.
+//! Batch of all contacts of an evaluation: those that touch are found, gathered by eights and evaluated together.
 //!
 //! Contacts in closed form are evaluated without being gathered, which would cost more. If the balls of a row also keep their axial
 //! positions, they are not searched for contact either.
@@ -37,12 +37,12 @@ pub(crate) use view::{RingView, View};
 /// Force on each ring and moment about the origin of its frame, both in that frame \[N\], \[N m\].
 pub(crate) type OnRings = [[Vector3<f64>; 2]; 2];
 
-/// What a reduction guarantees, so that a batch may use it.
+/// Guarantees of a reduction, so that a batch may use them.
 #[derive(Debug, Clone)]
 pub(crate) struct Guarantees {
     /// Rows whose contacts are evaluated.
     pub rows: Range<usize>,
-    /// All bodies stay in the planes of their rows.
+    /// Guarantee that all bodies stay in the planes of their rows.
     pub symmetric: bool,
     /// Axial places of rings and rows that never change.
     pub axial_places: Option<AxialPlaces>,
@@ -53,7 +53,7 @@ pub(crate) struct Guarantees {
 }
 
 impl Guarantees {
-    /// All rows, anything possible.
+    /// The guarantees of all rows, where anything is possible.
     pub fn whole(model: &Model) -> Self {
         Self {
             rows: 0..model.rows.len(),
@@ -295,7 +295,7 @@ impl Batch {
         self.singles.iter().map(|single| (single.race, single.ball))
     }
 
-    /// What touches, by eights: contacts with both rings side by side where the equations allow it.
+    /// Gathers the contacts that touch by eights: those with both rings side by side where the equations allow it.
     fn gather(&mut self, views: &[View<'_>; 2]) {
         self.active = 0;
         let parallel = views.iter().all(|view| view.tilted.is_none());

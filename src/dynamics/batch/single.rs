@@ -9,9 +9,9 @@ use crate::model::{Model, Race};
 pub(super) struct Single {
     pub race: Race,
     pub ball: usize,
-    /// In the scene's frame.
+    /// Wrench on the ball in the scene's frame.
     pub on_ball: Wrench,
-    /// About the ring's point, in its own frame where it may tilt.
+    /// Wrench on the ring about its point, in its own frame where it may tilt.
     pub on_ring: Wrench,
     pub pulls: u32,
     pub truncated: bool,

@@ -6,15 +6,15 @@ use crate::model::{BodyId, DOFS, Model, Race};
 use crate::simd::{LANES, Lanes, Task};
 use crate::tilt::Frame;
 
-/// All balls before one ring: in the scene's frame, or in that of a ring that may tilt, where it stands still.
+/// View of all balls before one ring: in the scene's frame, or in that of a ring that may tilt, where it stands still.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct View<'a> {
     pub q: &'a Table,
     pub v: &'a Table,
-    /// What it is of.
+    /// The state that is viewed.
     state: &'a State,
     pub ring: Motion,
-    /// None where rings stand parallel.
+    /// The view of the ring that tilts; none where rings stand parallel.
     pub tilted: Option<&'a RingView>,
 }
 
@@ -24,7 +24,7 @@ impl<'a> View<'a> {
         Race::BOTH.map(|race| Self::of_parallel(state, race))
     }
 
-    /// Of a ring that stands parallel.
+    /// The view of a ring that stands parallel.
     fn of_parallel(state: &'a State, race: Race) -> Self {
         Self {
             q: &state.q,
@@ -66,13 +66,13 @@ impl<'a> View<'a> {
     }
 }
 
-/// All balls in the frame of a ring that may tilt.
+/// View of all balls in the frame of a ring that may tilt.
 #[derive(Debug)]
 pub(crate) struct RingView {
     race: Race,
     /// Whether balls are turned into its frame: not before a ring that stays parallel, if they spin about the axis.
     tilts: bool,
-    /// As it stood at the start, where it stays parallel: of that only the frame is read.
+    /// The ring as it stood at the start, where it stays parallel: of that only the frame is read.
     pub ring: TiltedRing,
     q: Table,
     /// The rings' own are 0.
@@ -82,7 +82,7 @@ pub(crate) struct RingView {
 }
 
 impl RingView {
-    /// Of both rings; none where nothing turns about x or y.
+    /// Views of both rings; none where nothing turns about x or y.
     pub fn both(model: &Model) -> Option<[Self; 2]> {
         let (bodies, state) = (model.bodies.len(), State::new(model));
         let of = |race| Self {
@@ -105,7 +105,7 @@ impl RingView {
         both.each_ref().map(|ring| ring.view(state))
     }
 
-    /// What contacts see.
+    /// The view that contacts have.
     pub fn view<'a>(&'a self, state: &'a State) -> View<'a> {
         if !self.tilts {
             return View::of_parallel(state, self.race);
@@ -119,7 +119,7 @@ impl RingView {
         }
     }
 
-    /// Whether its balls spin freely.
+    /// Whether the row's balls spin freely.
     pub fn balls_turn(&self) -> bool {
         self.ring.balls_turn()
     }

@@ -33,10 +33,10 @@ struct Balls {
     /// Places of the first ball's x and y among the states.
     at: [usize; 2],
     forms: [InPlane; 2],
-    /// Along x and y \[N\].
+    /// Force along x and y \[N\].
     steady: [f64; 2],
     mobility: f64,
-    /// Along x and y what the link in front of a ball puts on it, and with the opposite sign on the next one \[N\]:
+    /// Forces along x and y that the link in front of a ball puts on it, and with the opposite sign on the next one \[N\]:
     /// first that of the last ball, which ends the ring, then that of the first and so on to the last.
     links: [Vec<f64>; 2],
 }
@@ -44,16 +44,16 @@ struct Balls {
 /// A ring along one direction.
 #[derive(Debug)]
 struct Direction {
-    /// Among the states; none where it is held.
+    /// Index among the states; none where it is held.
     at: Option<usize>,
-    /// Where it is held \[m\].
+    /// Place where it is held \[m\].
     place: f64,
     steady: f64,
     mobility: f64,
     spring: Option<Spring>,
 }
 
-/// What a planar right-hand side is made from.
+/// Material from which a planar right-hand side is made.
 pub(super) struct Ground<'a> {
     pub model: &'a Model,
     pub reduction: &'a Reduction,
@@ -64,7 +64,7 @@ pub(super) struct Ground<'a> {
 }
 
 impl Planar {
-    /// For rows whose contacts all have a closed form; none if there is more to the model.
+    /// The right-hand side for rows whose contacts all have a closed form; none if there is more to the model.
     ///
     /// Comes with the instruction set that is to run it, whose registers hold no more balls than any row has.
     pub fn new(

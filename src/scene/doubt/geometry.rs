@@ -26,7 +26,7 @@ const DENSITY: [f64; 2] = [500.0, 25e3];
 const MODULUS: [f64; 2] = [1e9, 1.5e12];
 
 impl Doubt {
-    /// Of a defect that is narrower than the contacts that meet it \[m\].
+    /// Doubt about a defect that is narrower than the contacts that meet it \[m\].
     pub(crate) fn narrow_defect(name: &str, width: f64, contact: f64) -> Self {
         Self::new(
             format!("defects.{name}.width"),

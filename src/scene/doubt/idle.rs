@@ -13,7 +13,7 @@ const ANGULAR: f64 = 0.1;
 /// Thrust over radial load from which contact angles of a deep groove bearing are some 10°.
 const THRUST: f64 = 0.5;
 
-/// What a moment is about.
+/// Words for the axis of a moment.
 const AXES: [&str; 3] = ["tilting about x", "tilting about y", "turning about z"];
 
 pub(super) fn look(scene: &Scene, found: &mut Vec<Doubt>) {

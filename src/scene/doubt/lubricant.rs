@@ -27,7 +27,7 @@ const PRESSURE: f64 = 3e9;
 /// Slip up to which a film's traction holds \[m/s\].
 const SLIP: f64 = 0.5;
 
-/// By what a film's formulas are judged.
+/// Numbers by which a film's formulas are judged.
 pub(crate) struct FilmJudged {
     /// Length of the ellipse over its width.
     pub ellipticity: f64,
@@ -40,7 +40,7 @@ pub(crate) struct FilmJudged {
 }
 
 impl Doubt {
-    /// Of a film at a place such as `row 0, outer film`.
+    /// Doubts about a film at a place such as `row 0, outer film`.
     pub(crate) fn film(place: &str, judged: &FilmJudged) -> Vec<Self> {
         let mut found = Vec::new();
         let mut add = |what: &str, value: String, usual: &str| {
@@ -67,7 +67,7 @@ impl Doubt {
         found
     }
 
-    /// Of the slip of contacts under films \[m/s\], if it is too fast for their formulas.
+    /// Doubt about the slip of contacts under films \[m/s\], if it is too fast for their formulas.
     pub(crate) fn film_slip(slip: f64) -> Option<Self> {
         let usual = "above 0.5 m/s oil heats in the contact and has less friction than is computed; more load, thicker oil or a \
                      lower speed reduce the slip";

@@ -1,4 +1,4 @@
-//! What is allowed in a scene but probably not meant: a number in another unit, a column that is constant.
+//! Doubts: numbers that are allowed in a scene but probably not meant, such as one in another unit or a column that is constant.
 //!
 //! Validation refuses what cannot be computed; a pitch diameter of 39 m can. So every number is compared with the range of
 //! real bearings, from miniature ones to those with a bore of one metre (`tests/reliability/doubts.rs`). What lies outside
@@ -32,9 +32,9 @@ pub const STATIC_PRESSURE: f64 = 4.2e9;
 pub struct Doubt {
     /// Path of the field, such as `rows[0].ball_diameter`, or what follows from the scene, such as `contact pressure`.
     pub path: String,
-    /// Its value in a common unit.
+    /// Value in a common unit.
     pub value: String,
-    /// What is usual, and what may have gone wrong.
+    /// Usual values, and what may have gone wrong.
     pub usual: String,
 }
 
@@ -53,7 +53,7 @@ impl Doubt {
         }
     }
 
-    /// Of a largest Hertz pressure \[Pa\] that a contact has, where it exceeds the static rating.
+    /// Doubt about a largest Hertz pressure \[Pa\] that a contact has, where it exceeds the static rating.
     pub(crate) fn pressure(largest: f64) -> Option<Self> {
         (largest > STATIC_PRESSURE).then(|| {
             Self::new(

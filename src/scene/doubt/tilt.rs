@@ -11,7 +11,7 @@ const TILT: f64 = 0.05;
 const USUAL: &str = "rings of bearings tilt by less than 3° in use";
 
 impl Doubt {
-    /// Of how far rings tilt in a run or at equilibrium \[rad\], if that is too far.
+    /// Doubt about how far rings tilt in a run or at equilibrium \[rad\], if that is too far.
     pub(crate) fn tilt(size: f64) -> Option<Self> {
         (size > TILT).then(|| {
             let value = format!("{}°", number(size.to_degrees()));

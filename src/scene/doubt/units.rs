@@ -49,7 +49,7 @@ fn speed(scene: &Scene, found: &mut Vec<Doubt>) {
     }
 }
 
-/// All loads together, where nothing else presses the balls.
+/// Doubts about all loads together, where nothing else presses the balls.
 fn loads(scene: &Scene, found: &mut Vec<Doubt>) {
     let preloaded = scene
         .rows

@@ -16,7 +16,7 @@ pub(super) fn finite(path: &str, value: f64) -> Result<()> {
     }
 }
 
-/// Of a number in some unit.
+/// Check of a positive number in some unit.
 pub(super) fn positive(path: &str, value: f64, unit: &str) -> Result<()> {
     if value.is_finite() && value > 0.0 {
         return Ok(());
@@ -25,7 +25,7 @@ pub(super) fn positive(path: &str, value: f64, unit: &str) -> Result<()> {
     Err(Error::scene(path, value, allowed.trim_end()))
 }
 
-/// Of a number in some unit, above 0 and at most a bound.
+/// Check of a number in some unit, above 0 and at most a bound.
 pub(super) fn up_to(path: &str, value: f64, most: f64, unit: &str) -> Result<()> {
     if value > 0.0 && value <= most {
         return Ok(());
@@ -41,7 +41,7 @@ pub(super) fn up_to(path: &str, value: f64, most: f64, unit: &str) -> Result<()>
     ))
 }
 
-/// Of a number in some unit, or none.
+/// Check of a number in some unit, or none, within a range.
 pub(super) fn within(path: &str, value: f64, range: RangeInclusive<f64>, unit: &str) -> Result<()> {
     if range.contains(&value) {
         return Ok(());
@@ -59,7 +59,7 @@ pub(super) fn within(path: &str, value: f64, range: RangeInclusive<f64>, unit: &
     Err(Error::scene(path, value, allowed))
 }
 
-/// Of the numbers of a part.
+/// Check of the numbers of a part.
 pub(super) fn numbers(path: &str, of: impl IntoIterator<Item = BoundedNumber>) -> Result<()> {
     of.into_iter().try_for_each(|number| {
         let path = format!("{path}.{}", number.field);
@@ -70,12 +70,12 @@ pub(super) fn numbers(path: &str, of: impl IntoIterator<Item = BoundedNumber>) -
     })
 }
 
-/// Of a place of a bearing or its shaft \[m\].
+/// Check of a place of a bearing or its shaft \[m\].
 pub(super) fn place(path: &str, value: f64) -> Result<()> {
     within(path, value, -100.0..=100.0, "m")
 }
 
-/// Of a length \[m\].
+/// Check of a length \[m\] below a limit.
 pub(super) fn below(path: &str, value: f64, limit: f64, what: &str) -> Result<()> {
     if value < limit {
         Ok(())
@@ -85,7 +85,7 @@ pub(super) fn below(path: &str, value: f64, limit: f64, what: &str) -> Result<()
     }
 }
 
-/// Of a direction along an axis, or one that turns.
+/// Check of a direction along an axis, or one that turns.
 pub(super) fn mount(path: &str, mount: Option<&Mount>, turns: bool) -> Result<()> {
     let Some(Mount::Spring { stiffness, damping }) = mount else {
         return Ok(());

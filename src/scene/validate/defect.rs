@@ -42,7 +42,7 @@ pub(super) fn defect(scene: &Scene, path: &str, defect: &Defect) -> Result<()> {
     Ok(())
 }
 
-/// Where a defect lies: on a ball of its row that it can lie on, or within a race.
+/// Check that a defect lies on a ball of its row that it can lie on, or within a race.
 fn surface(scene: &Scene, path: &str, row: &Row, defect: &Defect) -> Result<()> {
     let at = |field: &str| format!("{path}.{field}");
     match (defect.on, defect.ball) {
@@ -76,7 +76,7 @@ fn surface(scene: &Scene, path: &str, row: &Row, defect: &Defect) -> Result<()> 
     }
 }
 
-/// What is smaller than its contact lies in a plain groove, and overlaps no other defect.
+/// Check that a damage smaller than its contact lies in a plain groove, and overlaps no other defect.
 fn small(scene: &Scene, path: &str, row: &Row, defect: &Defect) -> Result<()> {
     let refuse = |field: &str, value: &dyn Display, allowed: &str| {
         Err(Error::scene(format!("{path}.{field}"), value, allowed))

@@ -5,7 +5,7 @@ use crate::base::error::{Error, Result};
 use crate::base::quantities;
 use crate::scene::{Drive, Load, Profile, Scene, TableForce, TimeFunction};
 
-/// What turns the rings.
+/// Check of what turns the rings.
 pub(super) fn drive(scene: &Scene) -> Result<()> {
     if let Some(speed) = &scene.outer_speed {
         ring_speed("outer_speed", speed)?;
@@ -101,7 +101,7 @@ fn table_force(path: &str, table: &TableForce) -> Result<()> {
     within(&format!("{path}.damping"), *damping, 0.0..=1e12, "N s/m")
 }
 
-/// What a load acts along, or a moment about.
+/// Check of the direction along which a load acts, or about which a moment does.
 pub(super) fn direction(path: &str, direction: &[f64; 3]) -> Result<()> {
     let size = direction.iter().map(|x| x * x).sum::<f64>().sqrt();
     if size.is_finite() && size > 0.0 {

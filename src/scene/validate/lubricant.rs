@@ -78,7 +78,7 @@ fn alone(path: &str, lubricant: &Lubricant) -> Result<()> {
     Ok(())
 }
 
-/// What the oil is, by name or as given.
+/// Check of the oil, by name or as given.
 fn oil(path: &str, lubricant: &Lubricant) -> Result<()> {
     let at = |field: &str| format!("{path}.{field}");
     let temperature = lubricant.temperature;

@@ -1,4 +1,4 @@
-//! All checks of a scene; each error names the field.
+//! Validation of a scene; each error names the field.
 
 mod bearing;
 mod check;

@@ -149,7 +149,7 @@ fn gothic(path: &str, arch: &GothicArch, shoulders: Option<[f64; 2]>) -> Result<
     Ok(())
 }
 
-/// Where a race ends, from the row's plane \[m\]; without what shoulders leave of a race that has none.
+/// Ends of a race, from the row's plane \[m\]; without what shoulders leave of a race that has none.
 pub(super) fn limits(row: &Row, outer: bool) -> [f64; 2] {
     let (f, shoulders, profile, arch, sign) = if outer {
         let own = (&row.outer_profile, &row.outer_arch);

@@ -11,7 +11,7 @@ use crate::statics::start::{Start, start};
 const FS: f64 = 50e3;
 const COUNT: usize = 40;
 
-/// What a recorder of 40 samples gives of a run that begins at some time \[s\]: names, times and all columns.
+/// Record of 40 samples of a run that begins at some time \[s\]: names, times and all columns.
 fn recorded(
     scene: &Scene,
     from: f64,

@@ -1,4 +1,4 @@
-//! What the counts of passes over defects depend on, for a run that goes on.
+//! State on which the counts of passes over defects depend, for a run that goes on.
 
 use super::{DefectWatch, MostLoaded, Pass};
 use crate::base::words::{Remembered, Words};

@@ -52,7 +52,7 @@ pub enum Warning {
         /// Accepted steps.
         steps: usize,
     },
-    /// This processor computes wrongly at an instruction set that it says it has; a narrower one was used.
+    /// Fault of the processor, which computes wrongly at an instruction set that it says it has; a narrower one was used.
     Instructions(Distrust),
     /// The line of a defect lies above half the sampling rate.
     SamplingRate {
@@ -60,7 +60,7 @@ pub enum Warning {
         fs: f64,
         /// The defect.
         defect: String,
-        /// Its first line at the highest speed of the run: BPFO, BPFI or twice BSF \[Hz\].
+        /// First line of the defect at the highest speed of the run: BPFO, BPFI or twice BSF \[Hz\].
         line: f64,
     },
     /// A number of the scene, or what follows from it, that no bearing is likely to have; a column that cannot change.
@@ -78,7 +78,7 @@ pub enum Warning {
         /// [`crate::Touched::placed`].
         placed: Placed,
     },
-    /// No ball passed a defect: of its effect the run shows nothing.
+    /// Defect that no ball passed: of its effect the run shows nothing.
     Unpassed {
         /// [`crate::Touched::name`].
         defect: String,
@@ -95,7 +95,7 @@ pub enum Warning {
 }
 
 impl Warning {
-    /// What it is about: `accuracy` of the signals, or the `scene` that was asked for.
+    /// Subject of the warning: `accuracy` of the signals, or the `scene` that was asked for.
     pub fn category(&self) -> &'static str {
         match self {
             Self::Accelerations { .. }

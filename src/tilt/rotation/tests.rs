@@ -35,7 +35,7 @@ fn follow(
     s
 }
 
-/// About the centre of mass, in the scene's frame.
+/// Angular momentum about the centre of mass, in the scene's frame.
 fn momentum(of: &Rotation, inertia: &Inertia) -> Vector3<f64> {
     let (axis, turning) = (of.frame.axis(), of.angular_velocity());
     let about = axis * turning.dot(&axis);
@@ -125,7 +125,7 @@ fn the_heavy_top_is_that_of_others() {
     assert!((axis - computed).amax() < 1e-6, "{axis}");
 }
 
-/// What holds a direction does no work on the others: energy stays, at a tilt of 0.3 rad.
+/// Moments that hold a direction do no work on the others: energy stays, at a tilt of 0.3 rad.
 #[test]
 fn holds_do_no_work() {
     for prescribed in [

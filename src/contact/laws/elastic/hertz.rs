@@ -66,7 +66,7 @@ impl Hertz {
         Self::of_curvatures(along, across, modulus)
     }
 
-    /// From the curvatures along the race and across the groove \[1/m\], and 1/Σ((1 − ν²)/E) of both materials \[Pa\].
+    /// The law from the curvatures along the race and across the groove \[1/m\], and 1/Σ((1 − ν²)/E) of both materials \[Pa\].
     pub(in crate::contact) fn of_curvatures(along: f64, across: f64, modulus: f64) -> Self {
         // Ellipse of axis ratio b/a = k' (a along the groove): along/across from the integrals,
         //   across ∝ (K − E)/m, along ∝ (E/(1 − m) − K)/m with m = 1 − (b/a)²; bisection in b/a.

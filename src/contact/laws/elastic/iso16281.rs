@@ -34,7 +34,7 @@ pub struct Iso16281 {
 }
 
 impl Iso16281 {
-    /// From the constant \[N/m²\], L_el/D and the ball diameter \[m\].
+    /// The law from the constant \[N/m²\], L_el/D and the ball diameter \[m\].
     pub fn new(constant: f64, length_ratio: f64, ball_diameter: f64) -> Self {
         Self {
             density: constant * (length_ratio * ball_diameter).powf(8.0 / 9.0) / ball_diameter,

@@ -30,7 +30,7 @@ pub(in crate::contact) trait ElasticLaw: Copy {
 
 /// Something that is compiled for every elastic law.
 pub(in crate::contact) trait ForLaw {
-    /// Does it. Wants `#[inline(always)]`.
+    /// Runs the task by a law. Wants `#[inline(always)]`.
     fn run<L: ElasticLaw>(self);
 }
 
@@ -72,7 +72,7 @@ impl Elastic {
         }
     }
 
-    /// Where the law wants the ball to be cut.
+    /// The cut that the law wants of the ball.
     pub fn cut(&self) -> Cut {
         match self {
             Self::Iso16281(_) => Cut::BallSurface,
@@ -90,7 +90,7 @@ impl Elastic {
         }
     }
 
-    /// What it is called.
+    /// The law's name.
     pub(crate) fn name(&self) -> &'static str {
         match self {
             Self::Iso16281(_) => "ISO law",
@@ -98,7 +98,7 @@ impl Elastic {
         }
     }
 
-    /// Does what is compiled for every law, for this one.
+    /// Runs the task, which is compiled for every law, by this one.
     #[inline(always)]
     pub(in crate::contact) fn choose(&self, task: impl ForLaw) {
         match self {

@@ -9,7 +9,7 @@ use super::speed::SpeedPowers;
 use super::thickness::Thickness;
 use super::traction::TractionNow;
 
-/// What a film is computed for; it stays during a run (12.7).
+/// Reference for which a film is computed; it stays during a run (12.7).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reference {
     /// Load of a contact Q_ref, above 0 \[N\].
@@ -22,7 +22,7 @@ pub struct Reference {
     pub approach: f64,
 }
 
-/// What oil does, each of which may be left out.
+/// Effects of oil, each of which may be left out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 // Four effects that are there or not, each by itself.
 #[allow(clippy::struct_excessive_bools)]
@@ -38,7 +38,7 @@ pub struct Effects {
 }
 
 impl Effects {
-    /// All of them.
+    /// All effects.
     pub const ALL: Self = Self {
         film: true,
         damping: true,
@@ -87,7 +87,7 @@ pub struct Film {
 }
 
 impl Film {
-    /// Of an oil on a race, computed for a reference, with the effects that are asked for.
+    /// The film of an oil on a race, computed for a reference, with the effects that are asked for.
     pub fn new(oil: &Oil, race: &LubricatedRace, reference: Reference, effects: Effects) -> Self {
         let conjunction = Conjunction::new(race, reference.load, reference.speed);
         let groups = conjunction.groups(oil);
@@ -142,17 +142,17 @@ impl Film {
         }
     }
 
-    /// What it was computed for.
+    /// The reference for which the film was computed.
     pub fn reference(&self) -> Reference {
         self.reference
     }
 
-    /// What the oil does.
+    /// The effects of the oil.
     pub fn effects(&self) -> Effects {
         self.effects
     }
 
-    /// By what the validity of the formulas is judged.
+    /// Limits by which the validity of the formulas is judged.
     pub fn limits(&self) -> Limits {
         Limits {
             ellipticity: 1.0 / self.conjunction.axis_ratio,

@@ -27,7 +27,7 @@ pub(super) struct FilmDamping {
 }
 
 impl FilmDamping {
-    /// Of a conjunction with approach δ_ref \[m\], a film of h₁ \[m\] and f_d \[Hz\].
+    /// The damping of a conjunction with approach δ_ref \[m\], a film of h₁ \[m\] and f_d \[Hz\].
     pub fn new(
         at: &Conjunction,
         groups: &Groups,
@@ -46,7 +46,7 @@ impl FilmDamping {
         }
     }
 
-    /// What of it depends on the rings' speed, by w̃ and ζ_h.
+    /// The part that depends on the rings' speed, by w̃ and ζ_h.
     pub fn at(self, load: f64, speed_ratio: f64, gap: f64) -> DampingNow {
         DampingNow {
             // X^{−1/2} = w̃^{−1/3}.
@@ -74,7 +74,7 @@ pub(super) struct DampingNow<T = f64> {
 }
 
 impl DampingNow {
-    /// None.
+    /// No damping.
     pub const NONE: Self = Self {
         rate: 0.0,
         gap: 1.0,

@@ -12,16 +12,16 @@ use crate::simd::{Lanes, Number};
 /// The film of a race of a row.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Oiled {
-    /// What stays during a run.
+    /// The film, which stays during a run.
     pub film: Film,
-    /// What it is at the present speed of the rings.
+    /// The film at the present speed of the rings.
     pub now: FilmNow,
     /// Radius of the groove without the coat \[m\].
     pub bare_radius: f64,
 }
 
 impl Oiled {
-    /// At the rings' speed against each other \[rad/s\].
+    /// A film at the rings' speed against each other \[rad/s\].
     pub fn new(film: Film, bare_radius: f64, speed: f64) -> Self {
         Self {
             film,
@@ -42,7 +42,7 @@ pub(crate) struct FilmNumbers<T> {
 }
 
 impl FilmNumbers<f64> {
-    /// Those of a race's film.
+    /// The numbers of a race's film.
     pub fn new(oiled: &Oiled) -> Self {
         Self {
             shortness: 1.0 / oiled.film.reference().half_length,
@@ -64,7 +64,7 @@ impl FilmNumbers<Lanes> {
     }
 }
 
-/// What the film of a contact does.
+/// Effect of a contact's film.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct FilmEffect<T> {
     /// Friction coefficient μ at large slip.
@@ -91,7 +91,7 @@ impl<T> FilmEffect<T> {
 }
 
 impl<T: Number> FilmEffect<T> {
-    /// In a contact whose zone is half as long as this \[m\]; none without a film.
+    /// The effect in a contact whose zone is half as long as this \[m\]; none without a film.
     #[inline(always)]
     pub fn of(film: Option<&FilmNumbers<T>>, half: T) -> Self {
         match film {
@@ -100,7 +100,7 @@ impl<T: Number> FilmEffect<T> {
         }
     }
 
-    /// In a contact by the cube root r of its load over the reference load.
+    /// The effect in a contact by the cube root r of its load over the reference load.
     #[inline(always)]
     pub fn at(film: &FilmNumbers<T>, r: T) -> Self {
         let [oil, steel] = film.rolling.parts(r);

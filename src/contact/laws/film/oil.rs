@@ -6,7 +6,7 @@ use crate::scene::{CENTISTOKE, Lubricant};
 /// 15 °C \[K\].
 const AT_15: f64 = 288.15;
 
-/// What an oil is at its temperature, and what is asked of its film.
+/// Properties of an oil at its temperature, and what is asked of its film.
 ///
 /// ```text
 /// log10 log10(ν̂ + 0.7) = A − B log10 T                    (12.1)

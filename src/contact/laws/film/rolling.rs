@@ -55,7 +55,7 @@ impl FilmRolling {
         }
     }
 
-    /// What of it depends on the rings' speed: ũ \[m/s\], ζ_h, and S, oil in front of the contact over the film's
+    /// The part that depends on the rings' speed: ũ \[m/s\], ζ_h, and S, oil in front of the contact over the film's
     /// minimum; none: flooded.
     pub fn at(
         &self,
@@ -105,7 +105,7 @@ pub(super) struct RollingNow<T = f64> {
 }
 
 impl RollingNow {
-    /// None.
+    /// No rolling resistance.
     pub const NONE: Self = Self {
         rigid: 0.0,
         elastic: 0.0,

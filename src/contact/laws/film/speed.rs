@@ -12,7 +12,7 @@ pub(super) struct SpeedPowers {
 }
 
 impl SpeedPowers {
-    /// Of the rings' speed over the reference speed: its floor keeps films smooth through standstill (12.9).
+    /// The rings' speed over the reference speed: its floor keeps films smooth through standstill (12.9).
     pub fn new(w: f64) -> Self {
         let ratio = (w * w + 1.0 / 400.0).sqrt();
         let root = ratio.sqrt();

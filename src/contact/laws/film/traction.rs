@@ -49,7 +49,7 @@ pub(super) struct TractionNow<T = f64> {
 const PRESSURE_SHARE: f64 = 0.82;
 
 impl TractionNow {
-    /// At an entrainment speed ũ \[m/s\] and a film h \[m\].
+    /// The traction at an entrainment speed ũ \[m/s\] and a film h \[m\].
     pub fn new(oil: &Oil, at: &Conjunction, entrainment: f64, film: f64) -> Self {
         let (limit, boundary) = (oil.limiting_stress, oil.boundary_friction);
         let asperities = asperity_share(film / oil.roughness);

@@ -19,7 +19,7 @@ use curve::TractionCurve;
 use film::FilmTraction;
 use stribeck::Stribeck;
 
-/// What a traction law can read of an element.
+/// Quantities of an element that a traction law can read.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::contact) struct Sliding<T> {
     /// Square of the slip speed u \[m²/s²\].
@@ -36,7 +36,7 @@ pub(in crate::contact) struct Sliding<T> {
     pub approach: T,
     /// Radii of ball and groove \[m\].
     pub radii: [T; 2],
-    /// Of a film: friction coefficient at large slip, and half of the slip speed at which traction bends \[m/s\]; 0 without.
+    /// Friction coefficient of a film at large slip, and half of the slip speed at which traction bends \[m/s\]; 0 without.
     pub friction: T,
     pub bend: T,
 }
@@ -52,7 +52,7 @@ pub(in crate::contact) struct Rolling<T> {
 }
 
 impl<T: Number> Rolling<T> {
-    /// From the distance of both centres, the velocity of the ball's against the ring's along ẑ × n, and both angular
+    /// Rolling from the distance of both centres, the velocity of the ball's against the ring's along ẑ × n, and both angular
     /// speeds.
     #[inline(always)]
     pub fn new(d: T, across: T, [ball, ring]: [T; 2]) -> Self {
@@ -98,11 +98,11 @@ impl<T: Number> Sliding<T> {
 pub enum Traction {
     /// A constant coefficient.
     Coulomb(Coulomb),
-    /// One that falls from rest to sliding.
+    /// Friction that falls from rest to sliding.
     Stribeck(Stribeck),
     /// A measured curve of a lubricated contact.
     TractionCurve(TractionCurve),
-    /// Of an oil film.
+    /// Traction of an oil film.
     Film(FilmTraction),
 }
 
@@ -145,7 +145,7 @@ impl Traction {
         }
     }
 
-    /// That of a film.
+    /// The traction of a film.
     pub(crate) fn of_film(now: &FilmNow) -> Self {
         Self::Film(FilmTraction {
             coefficient: now.friction(),
@@ -178,7 +178,7 @@ impl Traction {
         }
     }
 
-    /// Whether it is that of an oil film, which has a width of its own in every contact.
+    /// Whether the traction is that of an oil film, which has a width of its own in every contact.
     pub(in crate::contact) fn is_film(&self) -> bool {
         matches!(self, Self::Film(_))
     }
@@ -292,7 +292,7 @@ pub(in crate::contact) mod tests {
         assert!((ring + orbit * (d + arm)).abs() < 1e-12, "{ring}");
     }
 
-    /// One of every law.
+    /// A traction of every law.
     pub(in crate::contact) fn laws() -> Vec<Traction> {
         let frictions = [
             Friction::Coulomb {

@@ -1,4 +1,4 @@
-//! What must hold of films by model section 12.12: limits, smoothness, dimensions.
+//! Truths that hold of films by model section 12.12: limits, smoothness, dimensions.
 
 use std::f64::consts::TAU;
 
@@ -67,7 +67,7 @@ fn much_oil_is_flooded() {
     near(rolling(&much, 0.8), rolling(&flooded, 0.8), 1e-5);
 }
 
-/// Where a contact begins all are finite, forces begin with slope zero, and none has a kink.
+/// All terms are finite where a contact begins, forces begin with slope zero, and none has a kink.
 #[test]
 fn contacts_begin_softly() {
     for w in [0.0, 0.3, 1.0] {
@@ -92,7 +92,7 @@ fn contacts_begin_softly() {
     }
 }
 
-/// Where no asperity is left, a contact that just begins has a slip scale all the same.
+/// A contact that just begins has a slip scale where no asperity is left, too.
 #[test]
 fn polished_surfaces_begin_softly_too() {
     let oil = Oil {
@@ -217,7 +217,7 @@ fn effects_are_left_out_one_by_one() {
     );
 }
 
-/// What (12.17) adds at a frequency: in N s/m per contact, less the faster, and much less than without.
+/// Damping by (12.17) at a frequency: in N s/m per contact, less the faster, and much less than without.
 #[test]
 fn slow_damping_falls_with_frequency() {
     let at = |damping_frequency| {

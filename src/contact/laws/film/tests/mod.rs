@@ -1,4 +1,4 @@
-//! What section 12 of the model says of one contact: reference values (12.14) and what must hold (12.12).
+//! Section 12 of the model on one contact: reference values (12.14) and what must hold (12.12).
 
 mod limits;
 mod reference;
@@ -39,7 +39,7 @@ fn hertz(race: &LubricatedRace) -> Hertz {
     Hertz::of_curvatures(along, across, 0.5 * race.reduced_modulus)
 }
 
-/// What a load \[N\] and a speed \[rad/s\] are to Hertz's law.
+/// Reference of Hertz's law at a load \[N\] and a speed \[rad/s\].
 fn reference(race: &LubricatedRace, load: f64, speed: f64) -> Reference {
     let hertz = hertz(race);
     Reference {
