@@ -11,7 +11,7 @@ use crate::model::{BodyId, Dof, Model, RowModel};
 use crate::scene::Cage;
 use crate::simd::{Simd, Vector, Wide};
 
-/// All links of the cage.
+/// Forces of all links of the cage.
 #[derive(Debug)]
 pub(crate) struct CageLinks;
 
@@ -90,7 +90,7 @@ pub(crate) fn link(cage: &Cage, nominal: f64, first: &Motion, second: &Motion) -
     }
 }
 
-/// All links of a row: each from a ball to its neighbour, and the last one back to the first.
+/// Links of a row: each from a ball to its neighbour, and the last one back to the first.
 struct Links<'a> {
     cage: &'a Cage,
     row: &'a RowModel,
@@ -149,7 +149,7 @@ impl Wide for Links<'_> {
     }
 }
 
-/// What [`link`] puts on the first of two balls along x and y, from how far the second is apart and how fast it departs.
+/// Force of a [`link`] on the first of two balls along x and y, from how far the second is apart and how fast it departs.
 #[allow(clippy::inline_always)]
 #[inline(always)]
 pub(crate) fn pull<S: Simd>(

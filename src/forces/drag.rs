@@ -3,7 +3,7 @@
 use super::{Account, Damper, Force, ForceSums, Instant, Use};
 use crate::model::{BodyId, Dof, Model};
 
-/// On the balls of all rows.
+/// Drag on the balls of all rows.
 #[derive(Debug)]
 pub(crate) struct Drag;
 
@@ -37,7 +37,7 @@ impl Force for Drag {
         }
     }
 
-    /// None: what it takes is the oil's, of [`power`].
+    /// Account of nothing: what drag takes is the oil's, of [`power`].
     fn account(&self, _model: &Model, _y: &[f64]) -> Account {
         Account::default()
     }
@@ -47,7 +47,7 @@ impl Force for Drag {
     }
 }
 
-/// On a ball with a velocity \[N\].
+/// Drag on a ball with a velocity \[N\].
 pub(crate) fn on(drag: f64, velocity: [f64; 3]) -> [f64; 3] {
     let speed = velocity.iter().map(|v| v * v).sum::<f64>().sqrt();
     velocity.map(|v| -(drag * speed * v))

@@ -1,4 +1,4 @@
-//! What turns the rings: a torque on the inner ring, or prescribed speeds, whose motion is known without a force.
+//! Drive of the rings: a torque on the inner ring, or prescribed speeds, whose motion is known without a force.
 
 use super::{Account, Damper, Force, ForceSums, Instant, RingWrench, Use};
 use crate::model::{Model, Race};
@@ -31,7 +31,7 @@ impl Force for DriveTorque {
         }
     }
 
-    /// None: a torque does work, and stores and takes nothing.
+    /// Account of nothing: a torque does work, and stores and takes nothing.
     fn account(&self, _model: &Model, _y: &[f64]) -> Account {
         Account::default()
     }

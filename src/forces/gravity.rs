@@ -3,7 +3,7 @@
 use super::{Account, Damper, Force, ForceSums, RingWrench, Use};
 use crate::model::{BodyId, Dof, Model, Race};
 
-/// On all bodies.
+/// Weight of all bodies.
 #[derive(Debug)]
 pub(crate) struct Gravity;
 
@@ -47,14 +47,14 @@ impl Force for Gravity {
     }
 }
 
-/// On a body along x, y and z \[N\].
+/// Weight of a body along x, y and z \[N\].
 #[inline]
 pub(crate) fn on(model: &Model, body: BodyId) -> [f64; 3] {
     let mass = &model.bodies[body].mass;
     Dof::TRANSLATIONS.map(|dof| mass[dof] * model.scene.gravity[dof.index()])
 }
 
-/// On a body along a direction in the plane \[N\].
+/// Weight of a body along a direction in the plane \[N\].
 #[inline]
 pub(crate) fn along(model: &Model, body: BodyId, [x, y]: [f64; 2]) -> f64 {
     let [gx, gy, _] = model.scene.gravity;

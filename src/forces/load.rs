@@ -44,7 +44,7 @@ impl Force for Loads {
         }
     }
 
-    /// None: loads do work, and store and take nothing.
+    /// Account of nothing: loads do work, and store and take nothing.
     fn account(&self, _model: &Model, _y: &[f64]) -> Account {
         Account::default()
     }
@@ -92,7 +92,7 @@ fn is_constant(size: &TimeFunction) -> bool {
     matches!(size, TimeFunction::Constant(_))
 }
 
-/// One at a time \[s\], along x, y and z \[N\].
+/// Load at a time \[s\], along x, y and z \[N\].
 #[inline]
 pub(crate) fn at(load: &LoadModel, t: f64) -> Vector3<f64> {
     Vector3::from(load.direction) * load.force.at(t)
@@ -122,7 +122,7 @@ fn add(model: &Model, steady: bool, t: f64, sums: &mut ForceSums<'_>) {
     }
 }
 
-/// Of all loads and moments on a ring about its centre of mass at a time \[s\], in the scene's frame \[N m\]; `out` leads vectors of
+/// Moment of all loads and moments on a ring about its centre of mass at a time \[s\], in the scene's frame \[N m\]; `out` leads vectors of
 /// the ring's frame there.
 pub(crate) fn moment(
     model: &Model,

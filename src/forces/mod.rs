@@ -27,7 +27,7 @@ pub(crate) use rates::damping;
 pub(crate) use state::{State, Table};
 pub(crate) use sums::{ForceSums, Instant, RingWrench};
 
-/// All forces that are not contacts, in the order in which they are summed and listed.
+/// The forces that are not contacts, in the order in which they are summed and listed.
 pub(crate) const ALL: [&dyn Force; 8] = [
     &cage::CageLinks,
     &drag::Drag,
@@ -39,9 +39,9 @@ pub(crate) const ALL: [&dyn Force; 8] = [
     &unbalance::Unbalances,
 ];
 
-/// What is asked of a force.
+/// A force that is no contact: everything that is asked of it.
 pub(crate) trait Force: Debug + Sync {
-    /// Its name in an explanation.
+    /// Name of the force in an explanation.
     fn name(&self) -> &'static str;
 
     /// The name of the contribution that it counts to.
@@ -54,21 +54,21 @@ pub(crate) trait Force: Debug + Sync {
         false
     }
 
-    /// What becomes of it in a run.
+    /// Use of the force in a run.
     fn used(&self, model: &Model) -> Use;
 
-    /// Adds what of it neither time nor state changes.
+    /// Adds the part that neither time nor state changes.
     fn add_constant(&self, _model: &Model, _sums: &mut ForceSums<'_>) {}
 
     /// Adds the rest of it.
     fn add(&self, _model: &Model, _at: &Instant<'_>, _sums: &mut ForceSums<'_>) {}
 
-    /// Whether it depends on the sum of all other forces on a ring, and is asked for by [`Force::given_others`].
+    /// Whether the force depends on the sum of all other forces on a ring, and is asked for by [`Force::given_others`].
     fn waits_for_others(&self) -> bool {
         false
     }
 
-    /// What it does to a ring, given all other forces on it along x, y, z and about z.
+    /// The wrench on a ring, given all other forces on it along x, y, z and about z.
     fn given_others(
         &self,
         _model: &Model,
@@ -79,34 +79,34 @@ pub(crate) trait Force: Debug + Sync {
         None
     }
 
-    /// What it stores and takes in a state.
+    /// Energy that the force stores and power that it takes in a state.
     fn account(&self, model: &Model, y: &[f64]) -> Account;
 
-    /// Its dampers, for the message of a run whose steps collapse.
+    /// Dampers of the force, for the message of a run whose steps collapse.
     fn dampers(&self, model: &Model) -> Vec<Damper>;
 
-    /// What it does to a ring at the start, wherever the ring is: the force, and a moment in the ring's frame about its centre of
+    /// The wrench on a ring at the start, wherever the ring is: the force, and a moment in the ring's frame about its centre of
     /// mass. Springs of supports are no part of it.
     fn at_start(&self, _model: &Model, _race: Race) -> RingWrench {
         RingWrench::default()
     }
 
-    /// What it does at the start to a ring that is elsewhere, of a force that depends on the ring's place.
+    /// The wrench at the start on a ring that is elsewhere, of a force that depends on the ring's place.
     fn at_place(&self, _model: &Model, _race: Race, _ring: &RingMotion) -> RingWrench {
         RingWrench::default()
     }
 
-    /// What of it acts along z, in words.
+    /// The part that acts along z, in words.
     fn along_z(&self, _model: &Model) -> Option<String> {
         None
     }
 
-    /// What of it tilts a ring, in words.
+    /// The part that tilts a ring, in words.
     fn tilting(&self, _model: &Model) -> Option<String> {
         None
     }
 
-    /// Whether it depends on the angle of the inner ring.
+    /// Whether the force depends on the angle of the inner ring.
     fn turns_with_ring(&self, _model: &Model) -> bool {
         false
     }
@@ -117,19 +117,19 @@ pub(crate) trait Force: Debug + Sync {
     }
 }
 
-/// What becomes of a force in a run.
+/// Use of a force in a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Use {
-    /// It depends on the state or on time.
+    /// A force that depends on the state or on time.
     Evaluated,
-    /// It stays the same.
+    /// A force that stays the same.
     Constant,
     /// The scene has none.
     Absent,
 }
 
 impl Use {
-    /// Of a force that depends on the state or on time, if there is one.
+    /// The use of a force that depends on the state or on time, if there is one.
     pub fn evaluated(is_there: bool) -> Self {
         if is_there {
             Self::Evaluated
@@ -138,7 +138,7 @@ impl Use {
         }
     }
 
-    /// Of a force that stays the same, if there is one.
+    /// The use of a force that stays the same, if there is one.
     pub fn constant(is_there: bool) -> Self {
         if is_there {
             Self::Constant
@@ -148,7 +148,7 @@ impl Use {
     }
 }
 
-/// What a force stores \[J\], by the field of [`crate::inspect::Energy`] that it counts to, and takes \[W\].
+/// Account of a force: energy that it stores \[J\], by the field of [`crate::inspect::Energy`] that it counts to, and power that it takes \[W\].
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Account {
     pub kinetic: f64,
@@ -169,7 +169,7 @@ impl AddAssign for Account {
     }
 }
 
-/// What damps a body.
+/// Damper of a body.
 pub(crate) struct Damper {
     /// `row0.cage` or `outer.support`.
     pub name: String,

@@ -6,7 +6,7 @@ use super::{Account, Damper, Force, ForceSums, Instant, RingWrench, State, Use};
 use crate::model::{Dof, Model, Race};
 use crate::scene::{RingForce, RingMotion};
 
-/// All of them.
+/// Forces by code of a user, all of them.
 #[derive(Debug)]
 pub(crate) struct Outside;
 
@@ -95,7 +95,7 @@ fn off_plane(model: &Model) -> Option<String> {
     Some(format!("{name} may act off the plane"))
 }
 
-/// Where a ring is in a state.
+/// Motion of a ring in a state.
 fn motion(state: &State, race: Race) -> RingMotion {
     let [tilt, rates] = state.tilt(race);
     let ring = state.motion(race.ring());
@@ -109,7 +109,7 @@ fn motion(state: &State, race: Race) -> RingMotion {
     }
 }
 
-/// What a force does at a time \[s\].
+/// Wrench of a force at a time \[s\].
 fn wrench(force: &dyn RingForce, t: f64, motion: &RingMotion) -> RingWrench {
     let [x, y, z, mx, my, mz] = force.wrench(t, motion);
     RingWrench {

@@ -29,7 +29,7 @@ impl Table {
         self.values.copy_from_slice(&other.values);
     }
 
-    /// All bodies, along one direction.
+    /// Values of all bodies, along one direction.
     #[inline(always)]
     pub fn along(&self, dof: Dof) -> &[f64] {
         &self.values[dof.index() * self.stride..][..self.stride]
@@ -40,7 +40,7 @@ impl Table {
         &mut self.values[dof.index() * self.stride..][..self.stride]
     }
 
-    /// All bodies, direction by direction.
+    /// Values of all bodies, direction by direction.
     #[inline(always)]
     pub fn directions(&self) -> [&[f64]; DOFS] {
         [
@@ -118,7 +118,7 @@ impl Table {
     }
 }
 
-/// Where all bodies are and how they move.
+/// Places and motions of all bodies.
 #[derive(Debug, Clone)]
 pub(crate) struct State {
     pub q: Table,

@@ -63,7 +63,7 @@ pub(crate) fn resistance(spring: &Spring, place: f64, speed: f64) -> f64 {
     spring.stiffness * (place - spring.nominal) + spring.damping * speed
 }
 
-/// Those of some springs.
+/// Adds the forces of some springs.
 #[inline]
 fn add(springs: &[Spring], state: &State, forces: &mut Table) {
     for spring in springs {
@@ -73,13 +73,13 @@ fn add(springs: &[Spring], state: &State, forces: &mut Table) {
     }
 }
 
-/// What pulls a body at rest at a place back to its nominal one \[N\].
+/// Force that pulls a body at rest at a place back to its nominal one \[N\].
 #[inline]
 pub(crate) fn at_rest(body: &Body, dof: Dof, place: f64) -> f64 {
     body.degrees[dof].stiffness() * (body.nominal[dof] - place)
 }
 
-/// Of all supports in a state.
+/// Account of all supports in a state.
 fn account(model: &Model, y: &[f64]) -> Account {
     let (layout, mut account) = (model.layout(), Account::default());
     for spring in &model.springs {

@@ -24,7 +24,7 @@ pub(crate) fn holds(model: &Model) -> bool {
     rings.any(|ring| ring.coupled.is_some() || ring.degrees.iter().any(sprung))
 }
 
-/// What its support does through tilts, and what of the table's number about z is a force of the spin's own mount.
+/// Wrench of a ring's support through tilts, and what of the table's number about z is a force of the spin's own mount.
 pub(crate) fn support(
     model: &Model,
     race: Race,
@@ -91,7 +91,7 @@ fn stretched(
     [places, speeds].map(Vector6::from)
 }
 
-/// Of the supports of tilts and coupled supports in a state.
+/// Account of the supports of tilts and coupled supports in a state.
 pub(crate) fn account(model: &Model, y: &[f64]) -> Account {
     let mut account = Account::default();
     if !model.tilts() {

@@ -90,7 +90,7 @@ impl Force for Unbalances {
     }
 }
 
-/// What the unbalances of a ring that stays parallel do, from all other forces on it.
+/// Wrench of the unbalances of a ring that stays parallel, from all other forces on it.
 fn on(model: &Model, t: f64, state: &State, ring: Race, others: &[f64; DOFS]) -> RingWrench {
     let mut sum = RingWrench::default();
     let of_ring = model.unbalances.iter().filter(|u| u.ring == ring);
@@ -151,7 +151,7 @@ fn on_tilted(model: &Model, t: f64, state: &State, ring: Race, frame: &Frame) ->
     sum
 }
 
-/// What they add to kinetic energy and to that in the field of gravity \[J\].
+/// Kinetic energy that unbalances add, and energy in the field of gravity \[J\].
 fn energies(model: &Model, y: &[f64]) -> [f64; 2] {
     let mut energies = [0.0; 2];
     let [gx, gy, _] = model.scene.gravity;

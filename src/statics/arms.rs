@@ -24,14 +24,14 @@ pub(super) type OfRing = SMatrix<f64, OF_A_RING, OF_A_RING>;
 /// How a ball stands from a ring.
 #[derive(Debug, Clone)]
 pub(super) struct Arm {
-    /// From the ring's centre of mass \[m\].
+    /// Vector from the ring's centre of mass \[m\].
     pub from: Vector3<f64>,
     /// The ring's angular velocity by the rates of its tilts, expressed as lengths \[1/m\].
     pub turning: Matrix3x2<f64>,
 }
 
 impl Arm {
-    /// What a force on the ball, less itself, does to the ring's tilts.
+    /// Moment on the ring's tilts by a force on the ball, less itself.
     pub fn on_tilts(&self, force: &Vector3<f64>) -> Vector2<f64> {
         self.turning.tr_mul(&-self.from.cross(force))
     }
@@ -55,11 +55,11 @@ impl Arm {
     }
 }
 
-/// What acts on a ring at a point of it, in its frame.
+/// Force on a ring at a point of it, in its frame.
 #[derive(Debug, Clone)]
 pub(super) struct Push {
     pub race: Race,
-    /// From the centre of mass, in the ring's frame \[m\].
+    /// Vector from the centre of mass, in the ring's frame \[m\].
     pub arm: Vector3<f64>,
     /// Force in the scene's frame \[N\].
     pub force: Vector3<f64>,

@@ -1,4 +1,4 @@
-//! What compiling a scene asks of the bearing at rest.
+//! Answers to what compiling a scene asks of the bearing at rest.
 
 use super::positions;
 use crate::base::error::{Error, Result};
@@ -33,7 +33,7 @@ pub(crate) struct DefectPasses {
 }
 
 impl DefectPasses {
-    /// Under the largest value of every load, with a ball at the angle of a defect on the outer race; none without
+    /// The bearing under the largest value of every load, with a ball at the angle of a defect on the outer race; none without
     /// equilibrium.
     ///
     /// # Errors
@@ -88,7 +88,7 @@ impl DefectPasses {
         })
     }
 
-    /// Where the most loaded of these contacts runs, from the row's plane or the ball's centre \[m\]; none without load.
+    /// Place at which the most loaded of these contacts runs, from the row's plane or the ball's centre \[m\]; none without load.
     fn place(&self, defect: &Defect) -> Option<f64> {
         let places = self.contacts.iter().map(|&(j, race)| {
             let contact = inspect::contact(&self.model, &self.y, j, race);
@@ -146,7 +146,7 @@ mod tests {
     use crate::model::{BodyId, Dof, compile_placed};
     use crate::scene::{Mount, Waviness, presets};
 
-    /// Where the inner ring of a 6205 at 10 degrees under thrust stands with a wave on ball 0, which lies on the x axis.
+    /// Place of the inner ring of a 6205 at 10 degrees under thrust with a wave on ball 0, which lies on the x axis.
     fn stands(order: u32, amplitude: f64, phase: f64) -> [f64; 2] {
         let mut scene = presets::deep_groove_6205(0.0, 400.0, 0.0);
         (scene.gravity, scene.cage) = ([0.0; 3], None);

@@ -46,7 +46,7 @@ impl Problem<'_> {
         }
     }
 
-    /// Where a loose ball's own load presses it: the normal of its only contact lies along the load.
+    /// Seat into which a loose ball's own load presses it: the normal of its only contact lies along the load.
     fn seat(&self, j: usize, rings: &Rings) -> Vector2<f64> {
         let (centres, reach) = self.grooves(j, rings);
         let load = self.own_load(j);
@@ -246,7 +246,7 @@ impl Problem<'_> {
 
 /// A groove of the outer and one of the inner race in a ball's meridional plane.
 struct Grooves {
-    /// Their centres (radius, axial place).
+    /// Centres of the grooves (radius, axial place).
     centres: [Vector2<f64>; 2],
     /// How far from them a ball that just touches has its centre.
     reach: [f64; 2],
@@ -255,7 +255,7 @@ struct Grooves {
 }
 
 impl Grooves {
-    /// Of two races whose rings are at some places (along the ball's direction, axial).
+    /// The grooves of two races whose rings are at some places (along the ball's direction, axial).
     fn of(pair: [&Pair; 2], places: [Vector2<f64>; 2], radius: f64) -> Self {
         let centres = Race::BOTH.map(|race| {
             let (torus, shift) = (&pair[race].race, places[race]);

@@ -29,7 +29,7 @@ struct Chain {
     /// Length of all links, and the length at which they are slack.
     length: f64,
     slack: f64,
-    /// Of each ball, over two: two balls have but one link.
+    /// Number of links of each ball, over two: two balls have but one link.
     links: f64,
     balls: Vec<ChainBall>,
 }
@@ -39,7 +39,7 @@ struct ChainBall {
     place: Vector2<f64>,
     inmost: Vector2<f64>,
     outmost: Vector2<f64>,
-    /// Its own load outwards, and the cage's pull that it has settled under.
+    /// Load of the ball outwards, and the cage's pull under which it has settled.
     load: f64,
     pull: f64,
     hold: Hold,
@@ -71,7 +71,7 @@ impl ChainBall {
         (radius + (self.load + tension * pull) / pushed).clamp(lowest, highest)
     }
 
-    /// Its place at a radius.
+    /// Place of the ball at a radius.
     fn at(&self, radius: f64) -> Vector2<f64> {
         let way = self.outmost - self.inmost;
         if way.x > 0.0 && radius >= self.inmost.x && radius <= self.outmost.x {
@@ -86,7 +86,7 @@ impl Chain {
         self.balls.iter().map(of).collect()
     }
 
-    /// What a newton of tension pulls a ball outwards, less than nothing: a link of length ℓ from radius a to b points
+    /// Pull of a newton of tension on a ball outwards, less than nothing: a link of length ℓ from radius a to b points
     /// by (b² − a² − ℓ²)/(2aℓ) outwards.
     fn pull(&self, k: usize, radii: &[f64]) -> f64 {
         let last = radii.len() - 1;
@@ -97,7 +97,7 @@ impl Chain {
         self.links * outwards / (a * length)
     }
 
-    /// Where the balls are under a tension, one after the other.
+    /// Places of the balls under a tension, one after the other.
     fn hang(&self, tension: f64) -> Vec<f64> {
         let mut radii = self.radii(|ball| ball.place.x);
         // Pushed out of line, two links under a tension T push back with 2T/ℓ per metre.

@@ -27,7 +27,7 @@ pub struct DynamicCoefficients {
     pub stiffness: [[f64; OF_A_RING]; OF_A_RING],
     /// C \[N s/m, N s/rad, N m s/m, N m s/rad\].
     pub damping: [[f64; OF_A_RING]; OF_A_RING],
-    /// Where the healthy bearing stands at its start angles.
+    /// Equilibrium of the healthy bearing at its start angles.
     pub equilibrium: Equilibrium,
 }
 
@@ -82,7 +82,7 @@ pub fn dynamic_coefficients(scene: &Scene, positions: usize) -> Result<DynamicCo
     })
 }
 
-/// All balls with the cage turned so far \[rad\].
+/// Small motions of all balls with the cage turned so far \[rad\].
 fn balls(scene: &Scene, turn: f64) -> Result<Vec<Option<SmallMotion>>> {
     let model = compile(&turned(scene, turn))?;
     let y = in_motion(&model, RaceControl::Friction, Spacing::Equal)?;

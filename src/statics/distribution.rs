@@ -34,9 +34,9 @@ pub struct LoadDistribution {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct EquivalentLoads {
-    /// Of the outer race.
+    /// Number of the outer race.
     pub outer: f64,
-    /// Of the inner race.
+    /// Number of the inner race.
     pub inner: f64,
 }
 

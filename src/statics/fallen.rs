@@ -1,4 +1,4 @@
-//! Where gravity leaves the balls of a row within the play of their cage, and how fast they go there.
+//! Places at which gravity leaves the balls of a row within the play of their cage, and how fast they go there.
 //!
 //! A start from balls equally far apart rings for three quarters of a turn of the cage, until all of them have fallen from one end of the
 //! play to the other. What is left then repeats with the passing balls: those that carry load are close together, those that carry none
@@ -23,7 +23,7 @@ const CLOSE: f64 = 0.9;
 pub(crate) enum Spacing {
     #[default]
     Equal,
-    /// As gravity leaves them.
+    /// Balls as gravity leaves them.
     Fallen,
 }
 
@@ -92,7 +92,7 @@ struct Loose {
 }
 
 impl Loose {
-    /// None where a row has no two balls of either kind that follow each other, or has loose ones in several places.
+    /// The fallen balls; none where a row has no two balls of either kind that follow each other, or has loose ones in several places.
     fn of(model: &Model, y: &[f64], (row, cage): (&RowModel, &Cage)) -> Option<Self> {
         let mut balls: Vec<usize> = row.balls().collect();
         if orbit(model, row) < 0.0 {
@@ -124,7 +124,7 @@ impl Loose {
         })
     }
 
-    /// How far they are to go from where they are, along the circle \[m\].
+    /// Distance that the balls are to go from where they are, along the circle \[m\].
     ///
     /// When one of them comes into the load, the link behind it is as long as theirs; until the next one does, it becomes as long as those in
     /// the load.
@@ -169,7 +169,7 @@ fn hasten(model: &Model, y: &mut [f64], ball: BodyId, factor: f64) {
     }
 }
 
-/// Between the centres of two balls, in the plane \[m\].
+/// Distance between the centres of two balls, in the plane \[m\].
 fn distance(model: &Model, y: &[f64], balls: [usize; 2]) -> f64 {
     let [[ax, ay, _], [bx, by, _]] = balls.map(|j| model.layout().centre(y, BodyId::ball(j)));
     (bx - ax).hypot(by - ay)
@@ -239,7 +239,7 @@ mod tests {
         assert!((front / before - 1.0 - 1.9 * half / 0.0134).abs() < 2e-4);
     }
 
-    /// Without gravity, or without load, balls are equally far apart.
+    /// Balls are equally far apart without gravity, or without load.
     #[test]
     fn nothing_falls_where_nothing_pulls() {
         let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);

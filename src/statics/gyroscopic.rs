@@ -1,4 +1,4 @@
-//! What the balls' motion adds to their balance: the centrifugal force of their orbit, and friction that turns the spin axes of balls
+//! Forces of the balls' motion in their balance: the centrifugal force of their orbit, and friction that turns the spin axes of balls
 //! that spin freely (see [`steady`]).
 //!
 //! The alternative is race control: the outer race alone determines the ball's axis, and the ball does not pivot on it (Jones 1959;

@@ -121,7 +121,7 @@ pub struct Equilibrium {
     /// The films of rows with an oil, for the loads of the equilibrium without films and the drive's speed, unless the
     /// lubricant gives others.
     pub films: Vec<RaceFilm>,
-    /// What is unusual about the scene, about the pressure in its contacts and about its films.
+    /// Doubts about the scene, about the pressure in its contacts and about its films.
     pub doubts: Vec<Doubt>,
 }
 
@@ -241,7 +241,7 @@ fn in_place(model: &Model, (control, spacing): (RaceControl, Spacing)) -> Result
     solve_from(problem.controlled(control).spaced(spacing), rings)
 }
 
-/// What the solver found.
+/// Solution of the solver.
 struct Solved {
     /// State vector with zero velocities.
     y: Vec<f64>,
@@ -324,7 +324,7 @@ fn deflection(model: &Model, y: &[f64], j: usize, race: Race) -> f64 {
     approach + ball.side.waves.at(b.angle_of(outwards))
 }
 
-/// Of a scene, of the pressures and films in its contacts, and of rings that have tilted from where they nominally are.
+/// Doubts about a scene, about the pressures and films in its contacts, and about rings that have tilted from where they nominally are.
 fn doubts(scene: &Scene, found: &Equilibrium) -> Vec<Doubt> {
     let of_contacts = inspect::doubts(found.largest_pressure(), &found.films);
     let rings = [

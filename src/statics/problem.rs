@@ -1,4 +1,4 @@
-//! What acts: loads of rings and balls, and the forces of a ball's contacts.
+//! Problem of the static solve: loads of rings and balls, and the forces of a ball's contacts.
 
 use nalgebra::{DVector, Matrix2, Matrix3, SMatrix, Vector2, Vector3};
 
@@ -18,7 +18,7 @@ pub(super) struct Problem<'m> {
     pub(super) outwards: Vec<f64>,
     /// Friction of both races on each ball that turns the axis about which it spins freely \[N\].
     pub(super) friction: Vec<[Vector3<f64>; 2]>,
-    /// What it turns each ring beside its arm to the balls' centres \[N m\].
+    /// Moments by which a load turns each ring beside its arm to the balls' centres \[N m\].
     pub(super) couples: [Vector3<f64>; 2],
     /// Speeds of all bodies, once they are found from friction.
     pub(super) speeds: Vec<f64>,
@@ -40,7 +40,7 @@ pub(super) struct Problem<'m> {
     pub(super) springs: Vec<RowSpring>,
     /// Axial places that rings and rows keep, where they do.
     pub(super) axial_places: Option<AxialPlaces>,
-    /// Where the rings' springs are relaxed.
+    /// Places of the rings where their springs are relaxed.
     nominal: Rings,
     /// Loads that act off the rings' centres of mass.
     pub(super) pushes: Vec<Push>,
@@ -315,7 +315,7 @@ impl<'m> Problem<'m> {
         }
     }
 
-    /// What a ring's support resists where it is.
+    /// Resistance of a ring's support where the ring is.
     pub(super) fn resistance(&self, at: usize, rings: &Rings) -> f64 {
         let (race, dof) = unknowns::degree(at);
         self.support(race, dof) * (rings[at] - self.nominal[at])
@@ -355,15 +355,15 @@ impl<'m> Problem<'m> {
 /// A ball at a place between the rings.
 #[derive(Debug, Clone)]
 pub(super) struct BallState {
-    /// Its radius and axial place.
+    /// Radius and axial place of the ball.
     pub(super) place: Vector2<f64>,
     /// Force on it along these.
     pub(super) force: Vector2<f64>,
-    /// Its place from the centres of outer and inner ring, in their frames.
+    /// Place of the ball from the centres of outer and inner ring, in their frames.
     pub(super) from_rings: [Vector3<f64>; 2],
-    /// What the races do to it.
+    /// Contacts of the ball with the races.
     pub(super) contacts: [Tangent; 2],
-    /// How it stands from the rings, where tilts are looked for.
+    /// Arms of the ball from the rings, where tilts are looked for.
     pub(super) arms: Option<Box<[Arm; 2]>>,
 }
 

@@ -1,4 +1,4 @@
-//! What a solution leaves unbalanced, by the forces themselves.
+//! Residual of a solution: what it leaves unbalanced, by the forces themselves.
 
 use nalgebra::Vector2;
 
@@ -17,7 +17,7 @@ const REFUSED: f64 = 1e-4;
 /// The body that is worst off.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Residual {
-    /// On it, along the free directions of a ring or along radius and z of a ball \[N\].
+    /// Force left on a body, along the free directions of a ring or along radius and z of a ball \[N\].
     pub(super) force: f64,
     /// The largest force of a contact, or of all loads on a ring \[N\].
     pub(super) largest: f64,
@@ -31,13 +31,13 @@ impl Residual {
         }
     }
 
-    /// Whether that is too much.
+    /// Whether the residual is too much.
     pub(super) fn is_off(&self) -> bool {
         let share = self.share();
         share > REFUSED || share.is_nan()
     }
 
-    /// Over the largest load; 0 where nothing acts.
+    /// Share of the largest load; 0 where nothing acts.
     pub(super) fn share(&self) -> f64 {
         if self.force == 0.0 {
             0.0
@@ -48,7 +48,7 @@ impl Residual {
 }
 
 impl Problem<'_> {
-    /// What the places of rings and balls leave: springs that stood in for the cage, and balls that followed the rings to
+    /// Residual of the places of rings and balls: springs that stood in for the cage, and balls that followed the rings to
     /// first order, have no part in it.
     pub(super) fn residual(&self, rings: &Rings, places: &[Vector2<f64>]) -> Result<Residual> {
         let mut on_rings = self.loads;
@@ -76,7 +76,7 @@ impl Problem<'_> {
         Ok(found)
     }
 
-    /// What loads and balls leave to be carried of each ring beside its support, along free directions.
+    /// Force of loads and balls that is left to each ring beside its support, along free directions.
     fn left_on_rings(&self, rings: &Rings, forces: &Rings) -> [f64; 2] {
         let mut left = [0.0_f64; 2];
         for &i in &self.free {
@@ -86,13 +86,13 @@ impl Problem<'_> {
         left
     }
 
-    /// Of the two rings' loads the larger one.
+    /// Load of the ring that has the larger one.
     fn largest_load(&self) -> f64 {
         let on = |race| unknowns::of(&self.loads, race).norm();
         on(Race::Outer).max(on(Race::Inner))
     }
 
-    /// What the cage pulls every ball outwards, link by link.
+    /// Pull of the cage on every ball outwards, link by link.
     pub(super) fn cage_pulls(&self, places: &[Vector2<f64>]) -> Vec<f64> {
         let mut pulls = vec![0.0; places.len()];
         let Some(cage) = &self.model.scene.cage else {

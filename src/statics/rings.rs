@@ -27,7 +27,7 @@ const ROUGH: f64 = 1e-2;
 
 /// The rings at some place, every ball in its own equilibrium.
 pub(super) struct RingState {
-    /// Where the balls stand.
+    /// Places of the balls.
     pub(super) balls: Vec<Vector2<f64>>,
     /// Forces on the rings along their free directions, and the stiffness against them.
     residual: DVector<f64>,
@@ -43,7 +43,7 @@ pub(super) struct RingState {
 }
 
 impl RingState {
-    /// Where the balls would stand after a step of the rings, to first order.
+    /// Places of the balls after a step of the rings, to first order.
     fn followed(&self, step: &Rings) -> Vec<Vector2<f64>> {
         let places = self.balls.iter().zip(&self.follow);
         places

@@ -5,7 +5,7 @@ use crate::inspect;
 use crate::inspect::ContactSummary;
 use crate::model::{Between, BodyId, Dof, Layout, Model, PureRolling, Race};
 
-/// What decides about which axis a ball spins that spins freely, and so how fast its row goes round.
+/// Control of the axis about which a ball spins that spins freely, and so of how fast its row goes round.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum RaceControl {

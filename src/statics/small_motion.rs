@@ -29,7 +29,7 @@ const WEAK: f64 = 1e-6;
 /// Stiffness of a ball between the races that counts as none, over the largest.
 const NONE: f64 = 1e-9;
 
-/// What can be moved: the ball's places and speeds along r, s and z, and its rotation about z, r and s times its radius; the inner
+/// Number of motions: the ball's places and speeds along r, s and z, and its rotation about z, r and s times its radius; the inner
 /// ring's places and their rates.
 const MOVED: usize = 19;
 const PLACES: usize = 0;
@@ -45,7 +45,7 @@ const ON_RING: usize = 6;
 /// Answers of forces, by rows, to what is moved, by columns, with the sign of stiffnesses.
 type Slopes = SMatrix<f64, FELT, MOVED>;
 
-/// What a ball is to the inner ring.
+/// Stiffness and damping of a ball for the inner ring.
 pub(super) struct SmallMotion {
     /// K of the inner ring with the ball where it follows it.
     pub stiffness: Matrix5<f64>,
@@ -66,14 +66,14 @@ struct BallInPlace<'m> {
     ball: Motion,
     rings: [Motion; 2],
     tilts: [[[f64; 2]; 2]; 2],
-    /// Along its radius, its orbit, and the axis.
+    /// Axes along the ball's radius, its orbit, and the bearing's axis.
     axes: [Vector3<f64>; 3],
     orbit: f64,
     radius: f64,
 }
 
 impl SmallMotion {
-    /// Of a ball in a state of all bodies in motion; none where it does not touch the inner race.
+    /// The small motion of a ball in a state of all bodies in motion; none where it does not touch the inner race.
     pub fn of(model: &Model, y: &[f64], j: usize) -> Option<Self> {
         if inspect::contact(model, y, j, Race::Inner).load <= 0.0 {
             return None;

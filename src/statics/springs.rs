@@ -1,4 +1,4 @@
-//! What stands for cage and contacts in a round of the solve: springs.
+//! Springs that stand for cage and contacts in a round of the solve.
 
 use nalgebra::Vector3;
 

@@ -102,13 +102,13 @@ struct SteadyRow<'a, const N: usize> {
     /// Orbit and angular velocities \[rad/s\].
     orbit: f64,
     spins: Vec<SVector<f64, N>>,
-    /// Of the rings against each other \[rad/s\].
+    /// Speed of the rings against each other \[rad/s\].
     speed: f64,
-    /// Of oil in the balls' way (see [`drag`]).
+    /// Drag of oil in the balls' way (see [`drag`]).
     drag: f64,
 }
 
-/// What a ball leaves: moments along its directions of turning \[N m\], and the force along the orbit \[N\].
+/// Moments that a ball leaves along its directions of turning \[N m\], and the force along the orbit \[N\].
 type Left<const N: usize> = (SVector<f64, N>, f64);
 
 impl<'a, const N: usize> SteadyRow<'a, N> {
@@ -139,7 +139,7 @@ impl<'a, const N: usize> SteadyRow<'a, N> {
         })
     }
 
-    /// What a ball leaves at speeds.
+    /// Moments and force that a ball leaves at speeds.
     fn left(&self, j: usize, orbit: f64, spin: &SVector<f64, N>, y: &mut [f64]) -> Left<N> {
         let (model, layout, body) = (self.model, self.model.layout(), BodyId::ball(j));
         carry(layout, y, body, orbit);
@@ -165,7 +165,7 @@ impl<'a, const N: usize> SteadyRow<'a, N> {
         (SVector::from_fn(|i, _| moments[i]), along)
     }
 
-    /// What all leave, and how large that is for the steps: as angular accelerations \[rad/s²\].
+    /// Moments and forces that all balls leave, and how large that is for the steps: as angular accelerations \[rad/s²\].
     fn all_left(&self, y: &mut [f64]) -> (Vec<Left<N>>, f64) {
         let each = self.balls.iter().zip(&self.spins);
         let all: Vec<_> = each
@@ -206,7 +206,7 @@ impl<'a, const N: usize> SteadyRow<'a, N> {
         None
     }
 
-    /// One implicit step in time: (M/h − J) Δ = left, ball by ball, the orbit last. Returns the largest change of a speed.
+    /// Takes an implicit step in time: (M/h − J) Δ = left, ball by ball, the orbit last. Returns the largest change of a speed.
     fn step(&mut self, now: &[Left<N>], over_step: f64, y: &mut [f64]) -> f64 {
         let aside = ASIDE * self.speed;
         let (mut own, mut right) = (self.carried * over_step, 0.0);

@@ -28,7 +28,7 @@ pub struct Stiffness {
     pub inner_spatial: [[f64; OF_A_RING]; OF_A_RING],
     /// The same for both rings: the five of the outer, then those of the inner ring.
     pub rings_spatial: [[f64; OF_RINGS]; OF_RINGS],
-    /// Where the bearing stands.
+    /// Equilibrium at which the stiffness is.
     pub equilibrium: Equilibrium,
 }
 

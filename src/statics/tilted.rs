@@ -73,7 +73,7 @@ impl Problem<'_> {
         }
     }
 
-    /// What loads, moments and supports do to a ring's tilts, coupled supports to its places too; and the stiffness of all that.
+    /// Wrench of loads, moments and supports on a ring's tilts, coupled supports to its places too; and the stiffness of all that.
     /// Springs of single directions have no part in it.
     fn applied(&self, rings: &Rings, race: Race) -> (OnRing, OfRing) {
         let (mut forces, mut stiffness) = (OnRing::zeros(), OfRing::zeros());
@@ -94,7 +94,7 @@ impl Problem<'_> {
         (forces + coupled, stiffness + against)
     }
 
-    /// What forces do that depend on a ring's place, along its unknowns; and their stiffness by differences.
+    /// Wrench of forces that depend on a ring's place, along its unknowns; and their stiffness by differences.
     fn by_place(&self, rings: &Rings, race: Race) -> (OnRing, OfRing) {
         let step = 1e-3 * self.model.scales.approach;
         let at = |offset: usize, by: f64| {
@@ -131,7 +131,7 @@ impl Problem<'_> {
         sum
     }
 
-    /// What a coupled support does, −Gᵀ K ξ with G = ∂ξ/∂(places, tilts), and its stiffness Gᵀ K G.
+    /// Wrench of a coupled support, −Gᵀ K ξ with G = ∂ξ/∂(places, tilts), and its stiffness Gᵀ K G.
     fn coupled(&self, rings: &Rings, race: Race, frame: &Frame) -> (OnRing, OfRing) {
         let ring: &RingModel = &self.model.rings[race];
         let Some(coupled) = &ring.coupled else {

@@ -18,7 +18,7 @@ pub(super) type Rings = SVector<f64, OF_RINGS>;
 /// Stiffness of both rings against each other \[N/m\].
 pub(super) type RingStiffness = SMatrix<f64, OF_RINGS, OF_RINGS>;
 
-/// Where an unknown stands.
+/// Offset of an unknown.
 #[inline]
 pub(super) const fn at(race: Race, dof: Dof) -> usize {
     let own = match dof {
@@ -29,19 +29,19 @@ pub(super) const fn at(race: Race, dof: Dof) -> usize {
     first(race) + own
 }
 
-/// Where the unknowns of a ring begin.
+/// Offset of a ring's first unknown.
 #[inline]
 pub(super) const fn first(race: Race) -> usize {
     OF_A_RING * race as usize
 }
 
-/// What stands at a place.
+/// Race and direction at an offset.
 #[inline]
 pub(super) const fn degree(at: usize) -> (Race, Dof) {
     (Race::BOTH[at / OF_A_RING], DIRECTIONS[at % OF_A_RING])
 }
 
-/// All of them with where they stand.
+/// Unknowns, all of them with their offsets.
 #[inline]
 pub(super) fn all() -> impl Iterator<Item = (usize, Race, Dof)> {
     (0..OF_RINGS).map(|at| {
@@ -87,7 +87,7 @@ pub(super) fn length(step: &Rings) -> f64 {
     work(step, step).sqrt()
 }
 
-/// Those of one ring along x, y and z.
+/// Unknowns of one ring along x, y and z.
 #[inline]
 pub(super) fn of(rings: &Rings, race: Race) -> Vector3<f64> {
     rings.fixed_rows::<3>(first(race)).into_owned()
