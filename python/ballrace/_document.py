@@ -54,7 +54,7 @@ class Part:
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Variant(Part):
-    """One choice of several, identified by its tag."""
+    """A choice of several, identified by its tag."""
 
     tag: ClassVar[str]
     wraps: ClassVar[bool]
@@ -201,7 +201,7 @@ def decode(kind: type[T], document: object) -> T:
 
 
 _UNKNOWN = "what this version of the Python package knows"
-"""What is allowed in a document that a core of another version has checked."""
+"""Words for what is allowed in a document that a core of another version has checked."""
 
 
 def _decode(hint: Any, value: Any, path: str) -> Any:

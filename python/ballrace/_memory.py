@@ -9,7 +9,7 @@ _STATM = Path("/proc/self/statm")
 """File in which Linux reports how much of the address space is used; containers may hide it."""
 
 _UNIT = 1 if sys.platform == "darwin" else 1024
-"""In which getrusage counts memory [bytes]."""
+"""Unit in which getrusage counts memory [bytes]."""
 
 
 def used() -> int | None:

@@ -22,7 +22,7 @@ def is_watched(stream: TextIO) -> bool:
 
 
 class Bar:
-    """One line on standard error that grows, and goes away at the end; silent where nobody sees it change."""
+    """A bar on standard error, one line that grows and goes away at the end; silent where nobody sees it."""
 
     def __init__(self, label: str, stream: TextIO | None = None) -> None:
         self._label = printable(label)

@@ -25,7 +25,7 @@ __all__ = ["Snapshot"]
 
 _FORMAT = "1"
 _ENTRY = "ballrace_snapshot"
-"""What the metadata of a file has of a snapshot: the number of its form, and what the core needs."""
+"""Key of a snapshot in the metadata of a file: the number of its form, and what the core needs."""
 
 
 class Snapshot:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 __all__ = ["ENVELOPE", "GRAVITY", "canonical", "in_unit"]
 
 GRAVITY = 9.80665
-"""One g [m/s²], by the definition of the CGPM of 1901."""
+"""Standard gravity, one g [m/s²], by the definition of the CGPM of 1901."""
 
 _INCH = 0.0254
 

@@ -1,4 +1,4 @@
-"""One signal and what is known of it, from a run, a measuring chain or a file.
+"""Channels: a signal and what is known of it, from a run, a measuring chain or a file.
 
 A run (:class:`ballrace.Signals`), what a chain measured (:class:`ballrace.measuring.Measurement`) and a file
 (:class:`ballrace.Recording`) hold signals under different names. Each gives one of them as a :class:`Channel`, and
@@ -35,7 +35,7 @@ __all__ = ["Channel", "Recorded", "channel_of"]
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Channel:
-    """One signal of a record.
+    """A signal of a record.
 
     Attributes
     ----------
@@ -128,7 +128,7 @@ class Channel:
 
 @runtime_checkable
 class Recorded(Protocol):
-    """What runs, measurements, recordings and channels share."""
+    """Interface that runs, measurements, recordings and channels share."""
 
     @property
     def fs(self) -> float:

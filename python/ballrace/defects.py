@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 __all__ = ["cap", "dent", "line", "pit", "spall"]
 
 _DOWN = -math.pi / 2.0
-"""Where a load along -y presses the balls into the outer race."""
+"""Angle at which a load along -y presses the balls into the outer race."""
 
 _ROLLED = 0.3
 """Radius of rolled edges [mm]."""

@@ -1,4 +1,4 @@
-"""What a scene is compiled to, what it costs, and what would make it cheaper."""
+"""Explanation of what a scene is compiled to, what it costs, and what would make it cheaper."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ __all__ = ["Explanation", "explain"]
 
 
 class Explanation(Record):
-    """What a run of a scene integrates and evaluates; ``print`` shows it as a page of text.
+    """Explanation of what a run of a scene integrates and evaluates; ``print`` shows it as a page of text.
 
     Attributes
     ----------

@@ -20,7 +20,7 @@ from .scene import Method
 __all__ = ["Run"]
 
 EMPTY = "an empty cell is None, or null in a data frame"
-"""What to write into a table where nothing is meant."""
+"""Advice on what to write into a table where nothing is meant."""
 
 Start = Literal["equilibrium", "rolling"]
 
@@ -97,10 +97,10 @@ ARGUMENTS = tuple(field.name for field in fields(Run))
 """Names of the arguments of a run, in the order of their declaration."""
 
 BUDGET = ("time_limit", "max_steps")
-"""Those that say what a run may cost: no result depends on them."""
+"""Options that say what a run may cost: no result depends on them."""
 
 DECIDING = ("start", "method", "bandwidth", "duration", "fs", "rtol", "accuracy", "settle")
-"""Those that results depend on, in the order in which a case's id has them."""
+"""Options that results depend on, in the order in which a case's id has them."""
 
 _OPTIONAL = frozenset(field.name for field in fields(Run) if field.default is None)
 

@@ -20,7 +20,7 @@ __all__ = ["RingForce", "RingMotion"]
 
 
 class RingMotion(NamedTuple):
-    """Where a ring is and how it moves, in the scene's frame.
+    """Place and motion of a ring, in the scene's frame.
 
     Attributes
     ----------

@@ -33,7 +33,7 @@ __all__ = ["StiffnessTable", "stiffness_table"]
 _AXES = ("x", "y", "z", "a", "b")
 """Names of directions in columns: a and b are the tilts about x and y."""
 _ROSS = {"xx": (0, 0), "xy": (0, 1), "yx": (1, 0), "yy": (1, 1), "zz": (2, 2)}
-"""What a ``BearingElement`` of ROSS takes."""
+"""Coefficients that a ``BearingElement`` of ROSS takes."""
 _MEANT = {
     **dict.fromkeys(
         ("speeds", "speed", "rpm", "frequency"), "speeds_rpm, speeds of the inner ring [rev/min]"

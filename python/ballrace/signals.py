@@ -163,7 +163,7 @@ class Signals(Columns):
 
     @property
     def provenance(self) -> Record:
-        """What made these signals: versions, arguments, platform."""
+        """Origin of these signals: versions, arguments, platform."""
         return self._provenance
 
     @property

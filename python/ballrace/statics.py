@@ -188,7 +188,7 @@ class Equilibrium:
 
 
 RaceControl = Literal["friction", "outer"]
-"""What decides about which axis a ball spins that spins freely."""
+"""Control of the axis about which a ball spins that spins freely."""
 
 
 def equilibrium(

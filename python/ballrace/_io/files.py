@@ -9,7 +9,7 @@ from pathlib import Path
 from ..errors import SceneError
 
 PARQUET = (".parquet", ".pq", "")
-"""What the name of a Parquet file may end in."""
+"""Endings that the name of a Parquet file may have."""
 
 
 def as_path(

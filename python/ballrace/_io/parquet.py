@@ -32,7 +32,7 @@ _SIZE = 16
 _TAIL = 8
 """Length of what follows the footer: its own length, and the format's name [bytes]."""
 _PART = 1 << 20
-"""What is read and hashed between two looks at Ctrl-C [bytes]."""
+"""Size of what is read and hashed between two looks at Ctrl-C [bytes]."""
 
 
 @contextmanager

@@ -108,7 +108,7 @@ class Scanned(Mapping[str, NDArray[np.float64]]):
 
 
 class Run(Protocol):
-    """What a file keeps of a run beside its samples; see :class:`ballrace.Signals`."""
+    """Facts of a run that a file keeps beside its samples; see :class:`ballrace.Signals`."""
 
     @property
     def fs(self) -> float: ...

@@ -39,7 +39,7 @@ else:
 
 
 _NO_SYNC = (errno.EINVAL, errno.ENOSYS, errno.EOPNOTSUPP, errno.EBADF)
-"""Of a folder: file systems that keep names without being asked say so, in one of these ways."""
+"""Errors of a folder's sync: file systems that keep names without being asked say so, in one of these ways."""
 
 
 @contextmanager

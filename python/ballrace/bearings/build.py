@@ -25,7 +25,7 @@ _HALF_THE_BALLS = 1.22
 """Thrust over Fr tan α with which half of the balls carry (Sjövall's integrals at ε = 0.5)."""
 
 _OF_6205 = (52e-3**2 - 39.04e-3**2) * 15e-3
-"""What the outer ring of a 6205 has of metal, but for a factor [m³]."""
+"""Metal of the outer ring of a 6205, but for a factor [m³]."""
 
 _ROW_DISTANCE = 1.08
 """Distance of two rows over the ball diameter: 1.03 to 1.18, by the load centres that NSK prints of 52 and 53."""
@@ -45,7 +45,7 @@ _MEANT = {
     **dict.fromkeys(("d", "D", "B", "bore", "outside_diameter", "width", "ball_count"), _SIZE),
     **dict.fromkeys(("load", "force", "Fr", "Fa"), _LOADS),
 }
-"""What to write instead of arguments that there are not."""
+"""Advice on what to write instead of arguments that there are not."""
 
 
 @knows(_MEANT)

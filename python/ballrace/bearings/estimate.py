@@ -41,7 +41,7 @@ _OFF = {
 """Errors of ball diameter and orders that nine of ten bearings of the catalogue keep, as shares."""
 _ESTIMATED = ("ftf", "bpfo", "bpfi", "bsf")
 _PITCH_OFF = 0.015
-"""Of the pitch diameter: six of seven published ones are nearer to the mean of bore and outside diameter."""
+"""Uncertainty of the pitch diameter, as a part: six of seven published ones are nearer to the middle."""
 
 
 def estimated(

@@ -165,7 +165,7 @@ class Seat:
 
 @dataclass(frozen=True, kw_only=True)
 class Interference:
-    """What an interference between two thick-walled rings does, after Lamé.
+    """Effects of an interference between two thick-walled rings, after Lamé.
 
     Attributes
     ----------

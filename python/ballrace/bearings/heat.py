@@ -93,7 +93,7 @@ class OperatingClearance:
 
     @property
     def clearance(self) -> float:
-        """What is left [m]; below 0: the bearing is preloaded."""
+        """Clearance that is left [m]; below 0: the bearing is preloaded."""
         return self.initial - self.shaft_fit - self.housing_fit - self.heat
 
     def apply(self, scene: Scene) -> Scene:

@@ -1,4 +1,4 @@
-"""What the name on a bearing's box says.
+"""Names on the boxes of bearings, read.
 
 ``marks.csv`` has what may follow a designation, with makers and meanings as their catalogues give them; the column
 ``effect`` says what it changes of the bearing: nothing here, its ``clearance``, ``balls``, or their ``material``.

@@ -129,7 +129,7 @@ class Catalogue(Mapping[str, Bearing]):
 
 
 class UnknownBearingError(SceneError, KeyError):
-    """No bearing of the catalogue has this name; a ``KeyError`` too, so that ``in`` and ``get`` work."""
+    """Error: no bearing of the catalogue has this name; a ``KeyError`` too, so that ``in`` and ``get`` work."""
 
 
 def _doubtful(found: Name, row: Bearing) -> Iterator[str]:

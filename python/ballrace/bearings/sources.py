@@ -1,4 +1,4 @@
-"""Where the numbers of the catalogue come from, by the words in its table."""
+"""Sources of the catalogue's numbers, by the words in its table."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ __all__ = ["BOUNDARY", "CONFORMITY", "SOURCES", "Sources"]
 
 @dataclass(frozen=True, kw_only=True)
 class Sources:
-    """Where the numbers of a bearing come from.
+    """Sources of the numbers of a bearing.
 
     Attributes
     ----------
@@ -34,7 +34,7 @@ CONFORMITY = (
 """Groove radii."""
 
 UNLIKE = "; another set than SKF's, whose printed ratings are not those of these balls"
-"""Of balls of a maker other than SKF, with whose ratings they do not agree."""
+"""Remark on balls of a maker other than SKF, with whose ratings they do not agree."""
 
 SOURCES = {
     "f0": "estimated: the standard balls that have the printed f₀, C₀ = f₀ Z D² cos α, and C by ISO 281",

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class Plan:
-    """What is to be done.
+    """Plan of a campaign: what is to be done.
 
     Attributes
     ----------

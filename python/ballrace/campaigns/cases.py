@@ -32,7 +32,7 @@ _NEW = re.compile(r"(loads|moments|unbalances|table_forces|defects|probes)\.[^.\
 
 @dataclass(frozen=True, slots=True)
 class Case:
-    """One row of a table: its id, and why it cannot be run, if so."""
+    """A row of a table: its id, and why it cannot be run, if so."""
 
     id: str
     error: SceneError | None

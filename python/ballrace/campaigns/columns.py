@@ -23,7 +23,7 @@ BASE = (
 """Columns of every row of results; features follow."""
 
 BUDGET = {"budget": "String", "budget_limit": "Float64"}
-"""Which limit a case has spent, and what it was: columns of results that the manifest leaves out."""
+"""Columns of the limit that a case has spent, and what it was: results that the manifest leaves out."""
 
 
 def schema() -> dict[str, Any]:

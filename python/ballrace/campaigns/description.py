@@ -1,4 +1,4 @@
-"""What makes a folder that of one campaign: its description, sealed, in two copies.
+"""Description of a campaign, by which a folder is that of one campaign: sealed, in two copies.
 
 ``campaign.json`` and ``campaign.copy.json`` hold the scenes, the arguments of the runs and the options of the
 features, with a hash of these. A flipped digit would otherwise give every case another scene.

@@ -25,7 +25,7 @@ _ROW = 16
 
 @dataclass(frozen=True, kw_only=True)
 class Estimate:
-    """What a campaign would take, from its first missing case.
+    """Estimate of what a campaign would take, from its first missing case.
 
     Attributes
     ----------

@@ -38,7 +38,7 @@ _MOST = 1000
 
 
 class Executor(Protocol):
-    """What :mod:`concurrent.futures` calls an executor."""
+    """Executor as :mod:`concurrent.futures` has it."""
 
     def submit(self, fn: Callable[[str], str], text: str, /) -> Future[str]:
         """Have ``fn(text)`` called somewhere."""

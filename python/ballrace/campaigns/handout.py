@@ -1,4 +1,4 @@
-"""Which cases of a campaign are submitted together, so that one that ends its worker is found and none is lost."""
+"""Groups of cases that are submitted together, so that one that ends its worker is found and none is lost."""
 
 from __future__ import annotations
 

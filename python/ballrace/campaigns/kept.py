@@ -1,4 +1,4 @@
-"""What the folder of a campaign holds: its manifest, and scenes and signals case by case."""
+"""Contents of a campaign's folder: its manifest, and scenes and signals case by case."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class Kept:
 
     @property
     def manifest(self) -> pl.DataFrame:
-        """One row a case, in the order of the table.
+        """Table of the cases, one row a case, in the order of the campaign's table.
 
         ``case_id``; the table's own columns; ``fault_outer_race``, ``fault_inner_race``, ``fault_ball``: whether a
         loaded contact met such a defect in the run, empty where no ball passed it or there was no run;

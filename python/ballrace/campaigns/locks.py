@@ -35,7 +35,7 @@ _NO_FOLLOW = getattr(os, "O_NOFOLLOW", 0)
 
 _PART = re.compile(r"\d+-of-\d+")
 _WITHOUT_LOCKS = (errno.ENOLCK, errno.ENOSYS, errno.EOPNOTSUPP)
-"""Some parallel file systems are mounted so."""
+"""Errors of parallel file systems that are mounted without locks."""
 
 
 @contextmanager

@@ -34,7 +34,7 @@ class Counts(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Progress:
-    """Where a campaign stands.
+    """Progress of a campaign.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What is said while an executor gives nothing back, and when a campaign no longer waits for it."""
+"""Messages while an executor gives nothing back, and when a campaign no longer waits for it."""
 
 from __future__ import annotations
 

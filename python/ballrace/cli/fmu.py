@@ -21,7 +21,7 @@ __all__ = ["add_commands"]
 _ENDINGS = {"linux": ".so", "darwin": ".dylib", "win32": ".dll"}
 _SYSTEMS = {"darwin": "darwin", "win32": "windows"}
 _MACHINES = {"amd64": "x86_64", "arm64": "aarch64"}
-"""What the standard calls systems and machines, where Python has other names."""
+"""Names that the standard has for systems and machines, where Python has others."""
 
 _IDENTIFIER = "ballrace_fmu"
 """Name of the library within an FMU, as its description has it."""

@@ -1,4 +1,4 @@
-"""What class a row of a table is of."""
+"""Classes of the rows of a table."""
 
 from __future__ import annotations
 

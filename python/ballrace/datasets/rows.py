@@ -1,4 +1,4 @@
-"""What the table of a data set says of a simulated record."""
+"""Rows of a data set's table for simulated records."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One load case of the demonstration."""
+"""A load case of the demonstration."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is solved at rest, in words and numbers."""
+"""Results at rest, in words and numbers."""
 
 from __future__ import annotations
 

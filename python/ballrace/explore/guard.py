@@ -1,4 +1,4 @@
-"""What stands before every answer of the page: who may ask for it, and what a browser lets it do.
+"""Guard before every answer of the page: who may ask for it, and what a browser lets it do.
 
 Any page that a browser has open may send requests to loopback, and any user of the machine may serve one there. So
 an answer is given only to the page's own address: a name that leads here by the DNS of another is refused by its
@@ -42,7 +42,7 @@ _ALLOWED = {
     "form-action": "'self'",
     "frame-ancestors": "'none'",
 }
-"""What a page may load beside its scripts: from here alone."""
+"""Sources that a page may load beside its scripts: from here alone."""
 
 _HEADERS = {
     "x-frame-options": "DENY",
@@ -57,7 +57,7 @@ _HOST = re.compile(r"(127\.0\.0\.1|localhost)(:\d{1,5})?")
 """Loopback at any port, since a tunnel may have another one at its other end."""
 
 _LASTING = ("max-age", "expires", "samesite")
-"""What a cookie says of its life; without it ends with the browser's session."""
+"""Attributes of a cookie's life; without it ends with the browser's session."""
 
 
 class Guard:

@@ -1,4 +1,4 @@
-"""What is solved at rest for every move of a control."""
+"""Results at rest for every move of a control."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ class Live:
 
     @property
     def equilibrium(self) -> Equilibrium:
-        """Where rings and balls are."""
+        """Places of rings and balls."""
         return self.stiffness.equilibrium
 
 

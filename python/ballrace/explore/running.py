@@ -26,7 +26,7 @@ class _StoppedError(Exception):
 
 @dataclass(eq=False)
 class Running:
-    """One run, from waiting to its result.
+    """A run, from waiting to its result.
 
     Attributes
     ----------

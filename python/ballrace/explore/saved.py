@@ -1,4 +1,4 @@
-"""What is saved: the scene, a report of the run, a notebook that does both again."""
+"""Files that are saved: the scene, a report of the run, a notebook that does both again."""
 
 from __future__ import annotations
 

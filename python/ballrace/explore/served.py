@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 __all__ = ["HOST", "Page", "served"]
 
 HOST = "127.0.0.1"
-"""No other machine reaches it."""
+"""Address of loopback, which no other machine reaches."""
 
 _PROGRAM = """
 import sys

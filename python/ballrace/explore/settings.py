@@ -1,4 +1,4 @@
-"""What the controls say, and the scene that follows from it."""
+"""Settings of the controls, and the scene that follows from them."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ DAMAGE = get_args(Damage)
 """Kinds of damage, as :mod:`ballrace.defects` makes them."""
 
 _SHOWN: dict[str, Component] = {"outer": "ay", "inner": "theta"}
-"""What the page shows of a run: bodies, which are names of probes as well, and their components."""
+"""Signals of a run that the page shows: bodies, which are names of probes as well, and their components."""
 
 _TILT_DAMPING = 0.05
 """Damping of a tilt that a moment sets free, as of a small bearing's surroundings [N m s/rad]."""

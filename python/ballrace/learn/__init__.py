@@ -1,4 +1,4 @@
-"""From records to trained models: recipes, windows, features, a classifier, differences from measured records.
+"""Trained models from records: recipes, windows, features, a classifier, how measured records differ.
 
 A :class:`Recipe` says what is simulated, and :func:`dataset` does it; :func:`examples` makes writable arrays of
 a table of windows. With scikit-learn (``pip install "ballrace[learn]"``): :class:`EnvelopeLines`, a transformer

@@ -1,4 +1,4 @@
-"""What :class:`ballrace.learn.EnvelopeLines` computes of one record."""
+"""Features that :class:`ballrace.learn.EnvelopeLines` computes of one record."""
 
 from __future__ import annotations
 

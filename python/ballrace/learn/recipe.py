@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 __all__ = ["LARGEST_SLIP", "SURFACES", "Fault", "Range", "Recipe", "ends_of"]
 
 Fault = Literal["outer", "inner", "ball"]
-"""Where a fault is."""
+"""Place of a fault."""
 
 Range = float | tuple[float, float]
 """A number, or the lowest and the highest of those that are drawn."""

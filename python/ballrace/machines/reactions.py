@@ -1,4 +1,4 @@
-"""What each row of a scene carries."""
+"""Reactions: what each row of a scene carries."""
 
 from __future__ import annotations
 

@@ -33,11 +33,11 @@ _MEANT = {
         'loads={"name": br.machines.force(y=-500.0, at=0.1)}, each at its place',
     ),
 }
-"""What to write instead of arguments that there are not."""
+"""Advice on what to write instead of arguments that there are not."""
 
 _STEEL = 7850.0
 _DAMPING = 300.0
-"""Of the shaft's surroundings at each bearing [N s/m], as of a bearing of its own."""
+"""Damping of the shaft's surroundings at each bearing [N s/m], as of a bearing of its own."""
 
 _BEARINGS = 'bearings with their places [m], such as [("6309", 0.0), ("6207", 0.25)]'
 _MASSES = (

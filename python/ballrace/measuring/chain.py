@@ -105,7 +105,7 @@ _KINDS: dict[str, tuple[type, ...]] = {
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Measurement:
-    """What a chain made of a signal.
+    """Result of a chain on a signal.
 
     Attributes
     ----------

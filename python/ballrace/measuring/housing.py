@@ -1,4 +1,4 @@
-"""What lies between the ring and the sensor, as a linear transfer of its acceleration."""
+"""Housings between the ring and the sensor, as a linear transfer of its acceleration."""
 
 from __future__ import annotations
 
@@ -223,4 +223,4 @@ def log_uniform(rng: np.random.Generator, ends: tuple[float, float], n: int) -> 
 
 
 AnyHousing = Housing | MeasuredResponse | ImpulseResponse
-"""Any of them."""
+"""Housing of any kind."""

@@ -1,4 +1,4 @@
-"""Other vibration at the sensor."""
+"""Vibration of the machine at the sensor beside the bearing's."""
 
 from __future__ import annotations
 
@@ -33,9 +33,10 @@ only then its lines at 147.7, 161.7, 191.6 and 360 Hz are those of record 105 of
 """
 
 _SWELLING = (0.1, 0.05)
-"""Of that record: its squared envelope has lines of 0.15 to 0.28 of its mean at the shaft's frequency and 0.06 to
-0.24 at twice that, in bands from 0.5 to 16 kHz but 4 to 5 kHz, where a line of the motor stands; a modulation m
-gives 2 m."""
+"""Modulation of that record at the shaft's frequency and twice that.
+
+Its squared envelope has lines of 0.15 to 0.28 of its mean at the shaft's frequency and 0.06 to 0.24 at twice that,
+in bands from 0.5 to 16 kHz but 4 to 5 kHz, where a line of the motor stands; a modulation m gives 2 m."""
 
 _SLOW, _WAVES = (0.1, 3.0), 8
 """Frequencies of the slow modulation of the noise [Hz], and the number of its waves."""

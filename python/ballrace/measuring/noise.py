@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 __all__ = ["Density", "checked_density", "noise"]
 
 Density = float | tuple["ArrayLike", "ArrayLike"]
-"""One-sided power spectral density: that of white noise, or frequencies [Hz] and the densities there."""
+"""Power spectral density, one-sided: that of white noise, or frequencies [Hz] and the densities there."""
 
 
 def checked_density(name: str, density: Density) -> Density:

@@ -38,7 +38,7 @@ class Static:
 
 @dataclass(frozen=True)
 class Balls:
-    """All balls at one instant; arrays have one entry per ball, row by row.
+    """Balls at one instant; arrays have one entry per ball, row by row.
 
     Attributes
     ----------
@@ -94,7 +94,7 @@ class Snapshot:
 
 @dataclass(frozen=True)
 class Dynamic:
-    """What the outer ring's vertical acceleration says.
+    """Numbers of the outer ring's vertical acceleration.
 
     Attributes
     ----------
@@ -126,7 +126,7 @@ class Dynamic:
 
 @dataclass(frozen=True)
 class Case:
-    """One axial load: everything that is compared.
+    """An axial load: everything that is compared.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""One load case of the paper at rest, at an instant and over time."""
+"""Simulations of a load case of the paper at rest, at an instant and over time."""
 
 from __future__ import annotations
 

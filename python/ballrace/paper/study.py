@@ -1,4 +1,4 @@
-"""All load cases of the paper, run and compared."""
+"""Load cases of the paper, run and compared."""
 
 from __future__ import annotations
 

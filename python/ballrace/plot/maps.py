@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 __all__ = ["kurtogram", "order_map", "spectrogram"]
 
 SHADES = "Cividis"
-"""From dark to light for everyone, and on paper."""
+"""Colours from dark to light for everyone, and on paper."""
 
 _TURNS = 5.0
 """Turns of a window of an order map, at least."""

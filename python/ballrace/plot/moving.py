@@ -1,4 +1,4 @@
-"""What moves in the animation of a bearing, picture by picture."""
+"""Moving parts of the animation of a bearing, picture by picture."""
 
 from __future__ import annotations
 

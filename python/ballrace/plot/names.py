@@ -1,4 +1,4 @@
-"""What columns of a campaign mean, in words with their units."""
+"""Meanings of a campaign's columns, in words with their units."""
 
 from __future__ import annotations
 

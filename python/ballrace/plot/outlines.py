@@ -23,12 +23,12 @@ _SIDE = 0.75
 """Half a width over the ball's diameter, where the scene gives none."""
 
 _SHOULDER = math.radians(52.0)
-"""Where a groove ends if the scene gives no shoulders: their height is then a fifth of the ball."""
+"""Angle at which a groove ends if the scene gives no shoulders: their height is then a fifth of the ball."""
 
 
 @dataclass(frozen=True, eq=False)
 class Outlines:
-    """What is drawn of a bearing; lengths in millimetres.
+    """Outlines of what is drawn of a bearing; lengths in millimetres.
 
     Attributes
     ----------

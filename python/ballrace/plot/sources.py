@@ -1,4 +1,4 @@
-"""Where a picture's signal comes from: a column of a run or a recording, or an array."""
+"""Sources of a picture's signal: a column of a run or a recording, or an array."""
 
 from __future__ import annotations
 

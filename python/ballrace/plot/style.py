@@ -39,7 +39,7 @@ SYMBOLS = {
     "ball": ("2·BSF", COLOURS[3], "dot", "diamond"),
     "cage": ("FTF", COLOURS[4], "dashdot", "cross"),
 }
-"""Of every fault its frequency's name, colour, dash and marker."""
+"""Style of every fault: its frequency's name, colour, dash and marker."""
 
 CONFIG = {
     "displaylogo": False,
@@ -47,7 +47,7 @@ CONFIG = {
     "showSendToCloud": False,
     "plotlyServerURL": "",
 }
-"""For ``fig.show(config=...)`` and ``fig.to_html(config=...)``: no logo, and no button that sends data away."""
+"""Options for ``fig.show(config=...)``, ``fig.to_html(config=...)``: no logo, no button that sends data away."""
 
 _IMAGES = ("png", "jpeg", "jpg", "webp", "svg", "pdf")
 """Endings of pictures."""

@@ -1,4 +1,4 @@
-"""What moves in three dimensions, picture by picture, as whole numbers of 16 bits: a page has 5 kB for each."""
+"""Moving parts in three dimensions, picture by picture, as whole numbers of 16 bits: a page has 5 kB for each."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ _LARGEST = 30_000
 """Whole number that stands for the outside radius."""
 
 _OPEN = math.radians(80.0)
-"""What is cut out of the rings, from +x on."""
+"""Sector that is cut out of the rings, from +x on."""
 
 _SPOT = math.radians(40.0)
 """Reach of a spot on a ball, which shows that it rolls."""

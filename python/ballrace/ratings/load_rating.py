@@ -41,7 +41,7 @@ _DEEP = (
     (0.172, 0.19, 2.30), (0.345, 0.22, 1.99), (0.689, 0.26, 1.71), (1.03, 0.28, 1.55), (1.38, 0.30, 1.45),
     (2.07, 0.34, 1.31), (3.45, 0.38, 1.15), (5.17, 0.42, 1.04), (6.89, 0.44, 1.00),
 )  # fmt: skip
-"""Of deep groove bearings Fa/(Z D²) [N/mm²], e and Y, ISO 281; X is 0.56."""
+"""Table of deep groove bearings Fa/(Z D²) [N/mm²], e and Y, ISO 281; X is 0.56."""
 
 
 def dynamic_rating(

@@ -238,7 +238,7 @@ class _Child:
 
 
 class _Own:
-    """What this process has: a forked one must not share it."""
+    """State of this process: a forked one must not share it."""
 
     lock = threading.Lock()
     child: _Child | None = None

@@ -1,4 +1,4 @@
-"""What runs and recordings have in common: columns at one sampling rate, and their export."""
+"""Columns at one sampling rate, and their export: what runs and recordings have in common."""
 
 from __future__ import annotations
 

@@ -95,7 +95,7 @@ FORMATS = {
         ),
     )
 }  # fmt: skip
-"""All formats by their names."""
+"""Formats by their names."""
 
 _BY_SUFFIX = {suffix: one.name for one in FORMATS.values() for suffix in one.suffixes}
 

@@ -144,7 +144,7 @@ class _Looking:
 
 
 class _References:
-    """What a data set of references leads to: a cell, or a field of an array of structs."""
+    """Target of a data set of references: a cell, or a field of an array of structs."""
 
     def __init__(self, values: list[Any], *, is_cell: bool) -> None:
         self.values, self.is_cell = values, is_cell

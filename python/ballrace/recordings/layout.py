@@ -1,4 +1,4 @@
-"""Where the table of a text begins, and how its numbers are separated and written.
+"""Layout of a text: where its table begins, and how its numbers are separated and written.
 
 The table is the first long run of lines with equally many fields, all of them numbers or times of day. What stands
 above are its names and units, and a preamble.
@@ -30,7 +30,7 @@ _NAMES = 3
 """Most lines of names and units above a table."""
 
 _SEPARATORS = (";", "\t", "|", ", ", ",", " ", "")
-"""Between the fields of a line, in the order in which they are preferred; a blank means any number of them.
+"""Separators of the fields of a line, in order of preference; a blank means any number of them.
 
 A comma with a blank is one where commas without are decimal marks.
 """

@@ -14,7 +14,7 @@ _NUMBER = 8.0
 """Length of a number [bytes]."""
 
 most = math.inf
-"""What the numbers of a file may take [bytes]: set in the child process that reads it."""
+"""Limit of what the numbers of a file may take [bytes]: set in the child process that reads it."""
 
 
 def check_declared(path: Path, numbers: float) -> None:

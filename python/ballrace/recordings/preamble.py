@@ -1,4 +1,4 @@
-"""What stands above a table: lines of names and values, among which may be the sampling rate."""
+"""Preamble above a table: lines of names and values, among which may be the sampling rate."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a caller says about a file that the file does not say itself, or that cannot be recognised."""
+"""Arguments of a caller about a file that the file does not say itself, or that cannot be recognised."""
 
 from __future__ import annotations
 

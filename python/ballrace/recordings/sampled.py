@@ -35,7 +35,7 @@ _SAME = 1e-3
 """How far a given rate may be off the file's as another way to write it."""
 
 _OTHER = 1e-2
-"""From where on a given rate contradicts the file's."""
+"""Share from which on a given rate contradicts the file's."""
 
 _SLOWEST = 100.0
 """Rate up to which steps below 1 without a unit may be milliseconds [Hz]."""
@@ -44,7 +44,7 @@ _FASTEST = 2e6
 """Rate from which steps without a unit are likely no seconds, but days of a spreadsheet [Hz]."""
 
 _EPOCH = 1e8
-"""From where on whole numbers are times since some date, and no numbers of samples."""
+"""Number from which on whole numbers are times since some date, and no numbers of samples."""
 
 _FREQUENCY = re.compile(r"freq(?:uenc(?:y|ies)|uenz(?:en)?)?", re.IGNORECASE)
 _HERTZ = ("hz", "khz")
@@ -55,7 +55,7 @@ _LONG = ("s", "d")
 
 @dataclass(frozen=True, kw_only=True)
 class Signals:
-    """Which columns of a table are signals.
+    """Columns of a table that are signals.
 
     Attributes
     ----------

@@ -68,7 +68,7 @@ class Samples:
 
 @dataclass(kw_only=True)
 class Said:
-    """What a file says beside its numbers.
+    """Facts that a file says beside its numbers.
 
     Attributes
     ----------

@@ -86,7 +86,7 @@ class Column:
 
     @property
     def is_named_time(self) -> bool:
-        """Whether its name or its unit says that it is of times."""
+        """Whether the column's name or its unit says that it is of times."""
         if self.stamped:
             return True
         if self.unit and time_unit(self.unit) is None:
@@ -132,12 +132,12 @@ class Steps:
 
     @property
     def are_equal(self) -> bool:
-        """Whether they are equal but for small errors."""
+        """Whether the steps are equal but for small errors."""
         return self.off <= EQUAL
 
     @property
     def are_rounded(self) -> bool:
-        """Whether they would be equal if they were not rounded.
+        """Whether the steps would be equal if they were not rounded.
 
         Where hardly any step is unlike the others, a sample is missing: rounding would show in more of them.
         """
@@ -146,13 +146,13 @@ class Steps:
 
     @property
     def are_nearly_equal(self) -> bool:
-        """Whether they are nearly those of a straight line, as of times that are rounded, jitter or have gaps."""
+        """Whether the times nearly follow a straight line, as of times that are rounded, jitter or have gaps."""
         length = self.mean * (self.count - 1)
         return self.spread <= max(_STRAIGHT * length, 2.05 * self.grain)
 
     @property
     def are_counts(self) -> bool:
-        """Whether they are whole numbers of the unit."""
+        """Whether the times are whole numbers of the unit."""
         return self.off < 1e-6 and self.mean >= 1.0 and abs(self.mean - round(self.mean)) < 1e-9
 
     @property
@@ -184,7 +184,7 @@ class Times:
 
     @property
     def name(self) -> str:
-        """What the columns are called, for messages."""
+        """Name of the columns, for messages."""
         return ", ".join(column.name for column in self.columns)
 
 

@@ -33,7 +33,7 @@ _NARROW = 4
 """How many times longer than wide a matrix of signals is at least."""
 
 _SAME = 0.01
-"""Up to which difference of lengths, as a part, vectors without a rate of their own are of one rate."""
+"""Largest difference of lengths, as a part, up to which vectors without a rate of their own are of one rate."""
 
 _LABELS = (
     "names",
@@ -124,7 +124,7 @@ def _other(columns: list[Column], fs: float | None) -> Samples:
 
 
 class _Walk:
-    """What a tree holds: arrays that may be signals, others, and what is said about them."""
+    """Walk through a tree: arrays that may be signals, others, and what is said about them."""
 
     def __init__(self, joint: str) -> None:
         self._joint = joint

@@ -49,7 +49,7 @@ _AXES = {
     "abscissa_axis_lab": "Time", "abscissa_axis_units_lab": "s", "orddenom_spec_data_type": _UNKNOWN,
     "z_axis_spec_data_type": _UNKNOWN,
 }  # fmt: skip
-"""What all data sets of a record have: real numbers at equal steps of time."""
+"""Requirements of all data sets of a record: real numbers at equal steps of time."""
 
 _LINE = 80
 _UNIT = 20

@@ -27,7 +27,7 @@ def _unknown(_time: float) -> Any:
 
 @dataclass(frozen=True, kw_only=True)
 class Origin:
-    """What is known of where samples come from; by default nothing.
+    """Origin of samples, as far as it is known; by default nothing.
 
     Attributes
     ----------

@@ -17,12 +17,12 @@ __all__ = ["GothicArch", "RaceProfile", "Ring", "RingName", "Row", "Waviness"]
 
 
 RingName = Literal["outer", "inner"]
-"""Which ring."""
+"""Name of a ring."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Waviness(Part):
-    """One harmonic of a race's radius, ``amplitude * cos(order * phi + phase)``, phi from the ring's x axis.
+    """Harmonic of a race's radius, ``amplitude * cos(order * phi + phase)``, phi from the ring's x axis.
 
     Attributes
     ----------
@@ -78,7 +78,7 @@ class GothicArch(Part):
 
 @dataclass(frozen=True, kw_only=True)
 class Row(Part):
-    """One row of balls between two grooves.
+    """Row of balls between two grooves.
 
     Attributes
     ----------

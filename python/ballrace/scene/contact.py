@@ -71,7 +71,7 @@ class FittedSlices(Variant, tag="fitted", wraps=True):
 
 @dataclass(frozen=True)
 class AccurateSlices(Variant, tag="accuracy", wraps=True):
-    """As many fitted nodes as give normal and friction force of rolling balls to an accuracy.
+    """Fitted nodes, as many as give normal and friction force of rolling balls to an accuracy.
 
     Attributes
     ----------
@@ -83,7 +83,7 @@ class AccurateSlices(Variant, tag="accuracy", wraps=True):
 
 
 Slices = FixedSlices | FittedSlices | AccurateSlices
-"""Where a ball is cut."""
+"""Cutting of a ball into slices."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,4 +1,4 @@
-"""What a document may hold, from the dataclasses themselves: names, types, choices, defaults, meanings with units.
+"""Schema of a document, from the dataclasses themselves: names, types, choices, defaults, meanings with units.
 
 The form is JSON Schema. The range of a number depends on the others, and is checked when a scene is read.
 """

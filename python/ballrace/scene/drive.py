@@ -1,4 +1,4 @@
-"""What turns the inner ring."""
+"""Drives of the inner ring."""
 
 from __future__ import annotations
 
@@ -40,4 +40,4 @@ class TorqueDrive(Variant, tag="torque"):
 
 
 Drive = SpeedDrive | TorqueDrive
-"""What turns the inner ring."""
+"""Drive of the inner ring."""

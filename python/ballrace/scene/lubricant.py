@@ -155,7 +155,7 @@ class Lubricant(Part):
 
 @dataclass(frozen=True, kw_only=True)
 class OilProperties:
-    """What an oil is at its temperature and at the pressure of the surroundings.
+    """Properties of an oil at its temperature and at the pressure of the surroundings.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What a run records."""
+"""Probes: what a run records."""
 
 from __future__ import annotations
 
@@ -50,11 +50,11 @@ Component = Literal[
     "alpha_x",
     "alpha_y",
 ]
-"""One component of a motion: position [m], angle [rad], their rates and the rates of those; likewise of a
+"""Component of a motion: position [m], angle [rad], their rates and the rates of those; likewise of a
 ring's tilt [rad], and of how a ball turns about x and y that spins freely [rad]."""
 
 ContactQuantity = Literal["load", "angle", "zone_centre", "zone_width", "slip"]
-"""One quantity of a contact: normal force [N], contact angle [rad], axial place of the zone's middle of force in
+"""Quantity of a contact: normal force [N], contact angle [rad], axial place of the zone's middle of force in
 the ring's frame [m], axial extent of what touches [m], slip speed weighed by the load [m/s]."""
 
 

@@ -41,7 +41,7 @@ class Given(Variant, tag="given", wraps=True):
 
 
 Mount = Literal["free", "fixed"] | Spring | Given
-"""One direction of a support."""
+"""Mount of a ring in one direction."""
 
 
 @dataclass(frozen=True, kw_only=True)

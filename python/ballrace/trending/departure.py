@@ -1,4 +1,4 @@
-"""When a quantity departs from its baseline."""
+"""Departure of a quantity from its baseline."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From records to a trend."""
+"""Course of a trend from records."""
 
 from __future__ import annotations
 
@@ -139,7 +139,7 @@ def trend(
 
 
 class _Taken:
-    """What is kept of a record: not its samples, so that many may follow each other."""
+    """Numbers kept of a record: not its samples, so that many may follow each other."""
 
     def __init__(
         self, channel: Channel, found: Diagnosis, heights: Mapping[str, float | None]

@@ -27,7 +27,7 @@ FOLLOWED = (
 """Columns in which a departure is looked for."""
 
 POOLED = tuple(f"{part}.lines" for part in ACCUSED)
-"""Those of them that each record shares with the last ones."""
+"""Quantities that each record shares with the last ones."""
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ __all__ = ["Trend"]
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Trend:
-    """What :func:`ballrace.trend` says of the records of a bearing.
+    """Result of :func:`ballrace.trend` on the records of a bearing.
 
     Attributes
     ----------
