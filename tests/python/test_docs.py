@@ -8,6 +8,7 @@ or ``record`` where it wants a measured record.
 
 from __future__ import annotations
 
+import ast
 import doctest
 import importlib
 import os
@@ -131,3 +132,49 @@ def test_package_docstring() -> None:
 def test_everything_public_has_a_docstring() -> None:
     for name in ballrace.__all__:
         assert getattr(ballrace, name).__doc__, name
+
+
+DOCUMENTED = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
+SUBJECTLESS = re.compile(
+    r"(its?|their|they|th(is|at|ese|ose)|ones?|none|some|such|another|others?|wh(at|ich|ose|ere|en|o)|so|there"
+    r"|about|above|across|after|along|among|around|as|at|before|behind|below|beside|between|beyond|by|during|for"
+    r"|from|in(side|to)?|near|of|off|on|out|over|since|through|to(wards?)?|under|until|up|with(in|out)?"
+    r"|(how|whether)( \w+)? (it|they))\b",
+    re.IGNORECASE,
+)
+"""How a line begins that cannot be understood without what it stands at."""
+
+
+def first_lines() -> Iterator[tuple[str, str]]:
+    """First lines of the documentation of Rust and Python, private items too, each with its place."""
+    for path in sorted((ROOT / "src").rglob("*.rs")):
+        before = ""
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+            found = re.match(r"\s*(//[/!]) ?(.*)", line)
+            mark = found[1] if found else ""
+            if found and mark != before:
+                yield f"{path.relative_to(ROOT)}:{number}", found[2]
+            before = mark
+    for path in sorted((ROOT / "python").rglob("*.py*")):
+        if path.suffix not in (".py", ".pyi"):
+            continue
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            for part in getattr(node, "body", ()) if isinstance(node, DOCUMENTED) else ():
+                if isinstance(part, ast.Expr) and isinstance(part.value, ast.Constant):
+                    text = str(part.value.value).strip()
+                    yield f"{path.relative_to(ROOT)}:{part.lineno}", text.partition("\n")[0]
+
+
+def test_first_lines_name_their_subject() -> None:
+    """An editor shows that line alone; of two hundred one may begin with a pronoun, a preposition or "What"."""
+    lines = list(first_lines())
+    assert len(lines) > 6000
+    anaphoric = [f"{place}: {line}" for place, line in lines if SUBJECTLESS.match(line)]
+    assert len(anaphoric) <= len(lines) // 200, "\n".join(anaphoric)
+
+
+@pytest.mark.parametrize("line", ["Of all slices.", "What it takes.", "How far it has turned."])
+def test_a_line_without_a_subject_is_seen(line: str) -> None:
+    assert SUBJECTLESS.match(line)
+    assert not SUBJECTLESS.match("Load of all slices.")
+    assert not SUBJECTLESS.match("Whether the ring has tilts.")
