@@ -14,7 +14,7 @@ All numbers are in SI units.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from . import _arrays, defects, frequencies, presets, scene  # noqa: F401 (the first for its effect)
 from ._later import later
@@ -36,136 +36,124 @@ from .errors import (
 from .scene import Scene
 from .scene.lubricant import lubricants
 
+_MOVED = {
+    "BearingDataset": "datasets",
+    "Catalogue": "bearings",
+    "Diagnosis": "diagnosis",
+    "Equilibrium": "statics",
+    "Explanation": "explanation",
+    "FaultFrequencies": "frequencies.operating",
+    "FrictionTorque": "ratings",
+    "LifeFactor": "ratings",
+    "LoadDistribution": "statics",
+    "NoiseTest": "noise",
+    "RaceFilm": "statics",
+    "RatingLife": "ratings",
+    "Record": "signals",
+    "RecordFolder": "recordings",
+    "RingMotion": "ring_force",
+    "Snapshot": "simulation",
+    "Stiffness": "statics",
+    "StiffnessTable": "rotor",
+    "Touched": "signals",
+    "Trend": "trending",
+}
+"""Modules of results that nobody constructs, by their names."""
+
 if TYPE_CHECKING:
     from . import diagnosis, learn, machines, measuring, plot, spectra
     from ._features import features
-    from ._results import Record, Touched
-    from ._snapshot import Snapshot
-    from .bearings import Bearing, Catalogue, Pedestal, bearing, catalogue
+    from .bearings import Bearing, Pedestal, bearing, catalogue
     from .campaigns import Campaign, campaign, grid, latin_hypercube, scatter, sobol
     from .channel import Channel
-    from .datasets import BearingDataset, bearing_split, read_bearing_dataset
-    from .diagnosis import Diagnosis, diagnose
-    from .explanation import Explanation, explain
-    from .frequencies.operating import FaultFrequencies, fault_frequencies
+    from .datasets import bearing_split, read_bearing_dataset
+    from .diagnosis import diagnose
+    from .explanation import explain
+    from .frequencies.operating import fault_frequencies
     from .machines import pair, shaft
     from .measuring import measure
     from .model import Model
-    from .noise import NoiseTest, noise_test
+    from .noise import noise_test
     from .options import Run
-    from .ratings.friction import FrictionTorque, friction_torque_palmgren, friction_torque_skf
-    from .ratings.life import RatingLife, rating_life
-    from .ratings.life_factor import LifeFactor
-    from .recordings import RecordFolder, Recording, read, read_folder
-    from .ring_force import RingForce, RingMotion
-    from .rotor import StiffnessTable, stiffness_table
+    from .ratings import friction_torque_palmgren, friction_torque_skf, rating_life
+    from .recordings import Recording, read, read_folder
+    from .ring_force import RingForce
+    from .rotor import stiffness_table
     from .run import simulate
     from .signals import Signals
     from .simulation import Simulation
-    from .statics import (
-        Equilibrium,
-        LoadDistribution,
-        RaceFilm,
-        Stiffness,
-        equilibrium,
-        load_distribution,
-        stiffness,
-    )
-    from .trending import Trend, trend
+    from .statics import equilibrium, load_distribution, stiffness
+    from .trending import trend
+
+    __version__: str
 else:
     # What describes a scene is there; what is done with it is imported when it is first asked for.
-    __getattr__ = later(
+    _found = later(
         __name__,
         {
             "_features": ("features",),
-            "_snapshot": ("Snapshot",),
-            "_results": ("Record", "Touched"),
-            "bearings": ("Bearing", "Catalogue", "Pedestal", "bearing", "catalogue"),
+            "bearings": ("Bearing", "Pedestal", "bearing", "catalogue"),
             "campaigns": ("Campaign", "campaign", "grid", "latin_hypercube", "scatter", "sobol"),
             "channel": ("Channel",),
-            "datasets": ("BearingDataset", "bearing_split", "read_bearing_dataset"),
-            "diagnosis": ("Diagnosis", "diagnose"),
-            "explanation": ("Explanation", "explain"),
-            "frequencies.operating": ("FaultFrequencies", "fault_frequencies"),
+            "datasets": ("bearing_split", "read_bearing_dataset"),
+            "diagnosis": ("diagnose",),
+            "explanation": ("explain",),
+            "frequencies.operating": ("fault_frequencies",),
             "learn": (),
             "machines": ("pair", "shaft"),
             "measuring": ("measure",),
             "model": ("Model",),
-            "noise": ("NoiseTest", "noise_test"),
+            "noise": ("noise_test",),
             "options": ("Run",),
             "plot": (),
-            "ratings.friction": (
-                "FrictionTorque",
-                "friction_torque_palmgren",
-                "friction_torque_skf",
-            ),
-            "ratings.life": ("RatingLife", "rating_life"),
-            "ratings.life_factor": ("LifeFactor",),
-            "recordings": ("RecordFolder", "Recording", "read", "read_folder"),
-            "ring_force": ("RingForce", "RingMotion"),
-            "rotor": ("StiffnessTable", "stiffness_table"),
+            "ratings": ("friction_torque_palmgren", "friction_torque_skf", "rating_life"),
+            "recordings": ("Recording", "read", "read_folder"),
+            "ring_force": ("RingForce",),
+            "rotor": ("stiffness_table",),
             "run": ("simulate",),
             "signals": ("Signals",),
             "simulation": ("Simulation",),
             "spectra": (),
-            "statics": (
-                "Equilibrium",
-                "LoadDistribution",
-                "RaceFilm",
-                "Stiffness",
-                "equilibrium",
-                "load_distribution",
-                "stiffness",
-            ),
-            "trending": ("Trend", "trend"),
+            "statics": ("equilibrium", "load_distribution", "stiffness"),
+            "trending": ("trend",),
         },
+        _MOVED,
     )
+
+    def __getattr__(name: str) -> Any:
+        """Return what is imported when it is first asked for."""
+        if name != "__version__":
+            return _found(name)
+        from importlib.metadata import version
+
+        return version("ballrace")
+
 
 __all__ = [
     "AccuracyWarning",
     "BallraceError",
     "Bearing",
-    "BearingDataset",
     "BudgetError",
     "Campaign",
     "CampaignError",
     "CampaignWarning",
-    "Catalogue",
     "Channel",
-    "Diagnosis",
-    "Equilibrium",
     "EquilibriumError",
-    "Explanation",
-    "FaultFrequencies",
     "FileError",
     "FileWarning",
-    "FrictionTorque",
     "IntegrationError",
     "InternalError",
-    "LifeFactor",
-    "LoadDistribution",
     "MemoryLimitError",
     "Model",
-    "NoiseTest",
     "Pedestal",
-    "RaceFilm",
-    "RatingLife",
-    "Record",
-    "RecordFolder",
     "Recording",
     "RingForce",
-    "RingMotion",
     "Run",
     "Scene",
     "SceneError",
     "SceneWarning",
     "Signals",
     "Simulation",
-    "Snapshot",
-    "Stiffness",
-    "StiffnessTable",
-    "Touched",
-    "Trend",
     "bearing",
     "bearing_split",
     "campaign",
@@ -209,5 +197,5 @@ __all__ = [
 
 
 def __dir__() -> list[str]:
-    """List also what is not imported yet."""
-    return sorted({*globals(), *__all__})
+    """List the public names, imported or not."""
+    return sorted([*__all__, "__version__"])

@@ -54,7 +54,7 @@ def semi_axes(
     load : ndarray
         Normal forces [N].
     pressure : ndarray
-        Their largest Hertz pressures, as of :class:`ballrace.Equilibrium` [Pa]; ``3 load / (2 π a b)``.
+        Their largest Hertz pressures, as of :class:`ballrace.statics.Equilibrium` [Pa]; ``3 load / (2 π a b)``.
 
     Returns
     -------

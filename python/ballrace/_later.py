@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import sys
+import warnings
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-__all__ = ["later"]
+__all__ = ["later", "listed"]
 
 
-def later(package: str, homes: Mapping[str, tuple[str, ...]]) -> Callable[[str], Any]:
+def later(
+    package: str, homes: Mapping[str, tuple[str, ...]], moved: Mapping[str, str] | None = None
+) -> Callable[[str], Any]:
     """Return the ``__getattr__`` of a package.
 
     Parameters
@@ -22,12 +25,24 @@ def later(package: str, homes: Mapping[str, tuple[str, ...]]) -> Callable[[str],
     homes : mapping of str to tuple of str
         For each module that is imported later, the names that the package takes from it, besides the module
         itself.
+    moved : mapping of str to str, optional
+        For each name that the package no longer has, the module that has it: it is found with a
+        ``DeprecationWarning`` at the caller of a ``__getattr__`` that calls this one.
     """
+    moved = moved or {}
     home = {name: module for module, names in homes.items() for name in names}
 
     def found(name: str) -> Any:
         if name in homes:
             return import_module(f"{package}.{name}")
+        if name in moved:
+            there = f"{package}.{moved[name]}"
+            warnings.warn(
+                f"{package}.{name} is {there}.{name} since 0.4, and will be gone in 0.5",
+                DeprecationWarning,
+                stacklevel=3,
+            )
+            return getattr(import_module(there), name)
         if name not in home:
             raise AttributeError(f"module {package!r} has no attribute {name!r}")
         value = getattr(import_module(f"{package}.{home[name]}"), name)
@@ -35,3 +50,8 @@ def later(package: str, homes: Mapping[str, tuple[str, ...]]) -> Callable[[str],
         return value
 
     return found
+
+
+def listed(package: str) -> Callable[[], list[str]]:
+    """Return the ``__dir__`` of a package: its public names, imported or not, and no modules beneath."""
+    return lambda: sorted(sys.modules[package].__all__)

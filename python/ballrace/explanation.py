@@ -52,7 +52,7 @@ class Explanation(Record):
     oils : list of dict
         Rows with a lubricant: ``row``, name of the ``oil``, ``temperature`` [K], ``kinematic_viscosity`` [m²/s],
         whether reference load and speed are ``given`` or those of the equilibrium and the drive (``load_from``,
-        ``speed_from``), and the ``films`` of both races, the fields as of :class:`ballrace.RaceFilm`.
+        ``speed_from``), and the ``films`` of both races, the fields as of :class:`ballrace.statics.RaceFilm`.
     textures : list of dict
         Surfaces with a texture: ``row``, ``surface``, ``amplitude`` at order 30 [m], ``slope``, ``orders``,
         ``knots`` of its table, ``roughness`` around the circumference and ``fine_roughness`` from order 15 on
@@ -68,8 +68,8 @@ class Explanation(Record):
         Numbers that no bearing is likely to have, and columns that cannot change: ``path``, ``value``, ``usual``.
     defects : list of dict
         Where defects lie and what contacts carry there at the healthy bearing's equilibrium, the fields as of
-        :class:`ballrace.Touched`; ``passes`` counts the contacts looked at: over a turn of the inner race or the
-        ball past all balls, or of a ball at the angle of a defect on the outer race.
+        :class:`ballrace.signals.Touched`; ``passes`` counts the contacts looked at: over a turn of the inner race
+        or the ball past all balls, or of a ball at the angle of a defect on the outer race.
     clearance : Record, where it was given
         Parts of the clearance in operation, the fields of
         :class:`ballrace.bearings.OperatingClearance` [m].

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from ._core import _Signals
     from .recordings.windows import Origin
 
-__all__ = ["Signals"]
+__all__ = ["Record", "Signals", "Touched"]
 
 _SHOWN = 6
 """Columns of a run that a notebook shows."""

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from .ring_force import RingForce
     from .scene import Method
 
-__all__ = ["Simulation"]
+__all__ = ["Simulation", "Snapshot"]
 
 _OPEN = 1e6
 """The longest duration of a run, that of one without an end of its own [s]."""

@@ -239,7 +239,7 @@ def test_rest_is_a_zero_of_the_equations(document: object) -> str:
     """The equilibrium from the static solve and the forces of the model, with its rings where they stand."""
     scene = usable(document)
     found = decided(lambda: br.equilibrium(scene))
-    if not isinstance(found, br.Equilibrium):
+    if not isinstance(found, br.statics.Equilibrium):
         return type(found).__name__
     for race in ("outer", "inner"):
         load, pressure = getattr(found, f"{race}_load"), getattr(found, f"{race}_pressure")
@@ -248,6 +248,8 @@ def test_rest_is_a_zero_of_the_equations(document: object) -> str:
     loads = decided(lambda: br.load_distribution(scene, positions=1))
     # Which leaves defects out; a healthy bearing may be one that does not stand.
     healthy = decided(lambda: br.equilibrium(scene.replace({"defects": {}})))
-    if isinstance(loads, br.LoadDistribution) and isinstance(healthy, br.Equilibrium):
+    if isinstance(loads, br.statics.LoadDistribution) and isinstance(
+        healthy, br.statics.Equilibrium
+    ):
         alike(loads.outer_load[0], healthy.outer_load, 1e-3, "first position")
     return f"{type(stiff).__name__}, {type(loads).__name__}"

@@ -98,19 +98,19 @@ def at_rest(document: object) -> str:
         return "refused"
     found = decided(lambda: br.equilibrium(scene))
     of_a_scene(found)
-    if not isinstance(found, br.Equilibrium):
+    if not isinstance(found, br.statics.Equilibrium):
         return type(found).__name__
     for name in ("outer", "inner", "radius", "z", "outer_load", "inner_load", "outer_pressure"):
         assert np.isfinite(getattr(found, name)).all(), name
     assert (found.outer_load >= 0.0).all()
     assert (found.inner_load >= 0.0).all()
     stiff = decided(lambda: br.stiffness(scene))
-    if isinstance(stiff, br.Stiffness):
+    if isinstance(stiff, br.statics.Stiffness):
         assert np.isfinite(stiff.rings_spatial).all()
         scale = np.abs(stiff.rings).max()
         np.testing.assert_allclose(stiff.rings, stiff.rings.T, rtol=0.0, atol=1e-6 * scale)
     loads = decided(lambda: br.load_distribution(scene, positions=2))
-    if isinstance(loads, br.LoadDistribution):
+    if isinstance(loads, br.statics.LoadDistribution):
         assert np.isfinite(loads.inner_load).all()
         assert np.isfinite(loads.outer_equivalent).all()
     return "ok"

@@ -21,13 +21,16 @@ def interface() -> dict[str, list[str]]:
 
 
 def names() -> dict[str, list[str]]:
-    """Public names of Python: arguments of functions, members of classes."""
+    """Public names of Python: arguments of functions, members of classes; those that warn too."""
     modules = [br, *filter(inspect.ismodule, (getattr(br, name) for name in br.__all__))]
-    return {
+    found = {
         f"{module.__name__}.{name}": _behind(getattr(module, name))
         for module in modules
         for name in module.__all__
     }
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DeprecationWarning)
+        return found | {f"ballrace.{name}": _behind(getattr(br, name)) for name in br._MOVED}
 
 
 def _behind(value: object) -> list[str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import importlib.metadata
 import re
 import subprocess
 import sys
@@ -111,6 +112,41 @@ def test_what_comes_later_is_there() -> None:
     subprocess.run([sys.executable, "-c", program], check=True)
     with pytest.raises(AttributeError, match="'ballrace' has no attribute 'bearing_'"):
         ballrace.bearing_  # type: ignore[attr-defined]  # noqa: B018
+
+
+def test_packages_list_their_public_names() -> None:
+    """And no modules beneath, nor what they import."""
+    public = [
+        "bearings",
+        "campaigns",
+        "datasets",
+        "frequencies",
+        "learn",
+        "machines",
+        "measuring",
+        "plot",
+        "ratings",
+        "recordings",
+        "report",
+        "scene",
+        "trending",
+    ]
+    for name in public:
+        package = importlib.import_module(f"ballrace.{name}")
+        assert dir(package) == sorted(package.__all__), name
+        assert all(hasattr(package, each) for each in package.__all__), name
+    assert dir(ballrace) == sorted([*ballrace.__all__, "__version__"])
+    assert ballrace.__version__ == importlib.metadata.version("ballrace")
+
+
+@pytest.mark.parametrize(("name", "module"), sorted(ballrace._MOVED.items()))
+def test_results_that_moved_are_found_with_a_warning(name: str, module: str) -> None:
+    there = f"ballrace.{module}.{name}"
+    with pytest.warns(DeprecationWarning, match=f"^ballrace.{name} is {there} since 0.4") as caught:
+        found = getattr(ballrace, name)
+    assert caught[0].filename == __file__
+    assert found is getattr(importlib.import_module(f"ballrace.{module}"), name)
+    assert name not in ballrace.__all__
 
 
 def test_the_map_of_the_tests_lists_every_file_once() -> None:

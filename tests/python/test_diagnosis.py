@@ -60,7 +60,9 @@ def noise(x: Signal, level: float, seed: int = 2) -> Signal:
     return x + level * np.random.default_rng(seed).normal(size=x.size)
 
 
-def judged(x: Signal, bearing: AnyBearing = "6205", rpm: float = RPM, **more: Any) -> br.Diagnosis:
+def judged(
+    x: Signal, bearing: AnyBearing = "6205", rpm: float = RPM, **more: Any
+) -> br.diagnosis.Diagnosis:
     return br.diagnose(x, bearing, rpm, fs=FS, **more)
 
 
@@ -189,7 +191,7 @@ def test_what_is_excluded_accuses_nobody() -> None:
     assert "excluded" in found.why
 
 
-def run_of(x: Signal, scale: float, rpm: float = RPM) -> br.Diagnosis:
+def run_of(x: Signal, scale: float, rpm: float = RPM) -> br.diagnosis.Diagnosis:
     """Return the verdict on a signal as that of a run, of a scaled size [m/s²]."""
     scene = br.bearing("6205", radial_load=500.0, speed_rpm=rpm)
     fs = FS * rpm / RPM

@@ -51,13 +51,15 @@ def hit(name: str) -> tuple[NDArray[np.float64], float]:
     return record[next(iter(record))], float(name.partition("_")[2])
 
 
-def judged(x: NDArray[np.float64], fs: float, rpm: float, first: float = 0.0) -> br.Diagnosis:
+def judged(
+    x: NDArray[np.float64], fs: float, rpm: float, first: float = 0.0
+) -> br.diagnosis.Diagnosis:
     begin = round(first * fs)
     return br.diagnose(x[begin : begin + round(SECONDS * fs)], "6205", rpm, fs=fs)
 
 
 @functools.cache
-def of_hit(name: str) -> br.Diagnosis:
+def of_hit(name: str) -> br.diagnosis.Diagnosis:
     x, rpm = hit(name)
     return judged(x, 51_200.0, rpm)
 

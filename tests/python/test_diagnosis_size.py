@@ -116,7 +116,7 @@ def test_events_that_are_too_close_have_no_width(part: Race) -> None:
     assert "below a tenth of a ball's diameter (0.79 mm)" in width.why
 
 
-def at_speeds(arc_of: Callable[[float], float]) -> list[br.Diagnosis]:
+def at_speeds(arc_of: Callable[[float], float]) -> list[br.diagnosis.Diagnosis]:
     return [
         br.diagnose(passes("outer_race", arc_of(rpm), rpm=rpm), "6205", rpm, fs=FS)
         for rpm in (600.0, 900.0, 1400.0)

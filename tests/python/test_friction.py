@@ -21,7 +21,7 @@ OF_6205: dict[str, Any] = {"bore": 25e-3, "outside_diameter": 52e-3}
 
 def skf(
     celsius: float = 55.0, load: float = 500.0, rpm: float = 1797.0, **more: Any
-) -> br.FrictionTorque:
+) -> br.ratings.FrictionTorque:
     viscosity = 1e-6 * astm_d341(68.0, 8.7, celsius)
     arguments = {"radial_load": load, "speed_rpm": rpm, "viscosity": viscosity, **OF_6205, **more}
     return br.friction_torque_skf(arguments.pop("series", "62"), **arguments)

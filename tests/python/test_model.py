@@ -20,7 +20,7 @@ def model(wheel: br.Scene) -> br.Model:
 
 
 @pytest.fixture(scope="module")
-def eq(wheel: br.Scene) -> br.Equilibrium:
+def eq(wheel: br.Scene) -> br.statics.Equilibrium:
     return br.equilibrium(wheel)
 
 
@@ -77,7 +77,7 @@ def test_model_pickles(model: br.Model) -> None:
     np.testing.assert_array_equal(again.rhs(0.0, y), model.rhs(0.0, y))
 
 
-def test_equilibrium_arrays(eq: br.Equilibrium) -> None:
+def test_equilibrium_arrays(eq: br.statics.Equilibrium) -> None:
     assert eq.outer.shape == eq.inner.shape == (3,)
     for name in (
         "row",
@@ -94,7 +94,7 @@ def test_equilibrium_arrays(eq: br.Equilibrium) -> None:
     assert eq.outer_load.max() > 100.0
 
 
-def test_equilibrium_table(eq: br.Equilibrium) -> None:
+def test_equilibrium_table(eq: br.statics.Equilibrium) -> None:
     table = eq.to_polars()
     assert table.height == 26
     assert table.columns[:5] == ["row", "ball", "angle", "radius", "z"]

@@ -28,7 +28,7 @@ def scene() -> br.Scene:
     )
 
 
-def spring(_: float, ring: br.RingMotion) -> tuple[float, float, float]:
+def spring(_: float, ring: br.ring_force.RingMotion) -> tuple[float, float, float]:
     return 0.0, -STIFFNESS * ring.place[1] - DAMPING * ring.velocity[1], 0.0
 
 
@@ -83,7 +83,7 @@ def test_moments_and_times_are_passed(scene: br.Scene) -> None:
     )
     seen = []
 
-    def torque(t: float, ring: br.RingMotion) -> list[float]:
+    def torque(t: float, ring: br.ring_force.RingMotion) -> list[float]:
         seen.append((t, ring))
         return [*spring(t, ring), 0.0, 0.0, 2e-3]
 
@@ -100,7 +100,7 @@ def test_forces_are_as_at_the_start_while_it_settles(scene: br.Scene) -> None:
     """Truth: the times that a function is given; loads and drive wait, too."""
     times = []
 
-    def timed(t: float, ring: br.RingMotion) -> tuple[float, float, float]:
+    def timed(t: float, ring: br.ring_force.RingMotion) -> tuple[float, float, float]:
         times.append(t)
         return spring(t, ring)
 
@@ -118,7 +118,7 @@ def test_an_exception_reaches_who_ran_it(scene: br.Scene, tmp_path: Path) -> Non
     """Truth: it is the same object, at every later call too, and nothing is written."""
     error = TooFarError("the seal burst")
 
-    def bursting(t: float, ring: br.RingMotion) -> tuple[float, float, float]:
+    def bursting(t: float, ring: br.ring_force.RingMotion) -> tuple[float, float, float]:
         if t > 5e-4:
             raise error
         return spring(t, ring)
@@ -136,7 +136,7 @@ def test_an_exception_reaches_who_ran_it(scene: br.Scene, tmp_path: Path) -> Non
 
 
 def test_an_exception_in_the_equilibrium_does_too(scene: br.Scene) -> None:
-    def failing(t: float, ring: br.RingMotion) -> tuple[float, float, float]:
+    def failing(t: float, ring: br.ring_force.RingMotion) -> tuple[float, float, float]:
         raise TooFarError("at once")
 
     with pytest.raises(TooFarError, match="at once"):
@@ -170,7 +170,7 @@ def test_forces_are_let_go_with_their_run(scene: br.Scene) -> None:
     import weakref
 
     class Held:
-        def __call__(self, t: float, ring: br.RingMotion) -> tuple[float, float, float]:
+        def __call__(self, t: float, ring: br.ring_force.RingMotion) -> tuple[float, float, float]:
             return spring(t, ring)
 
     held = Held()

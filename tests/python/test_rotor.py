@@ -32,14 +32,14 @@ def scene() -> br.Scene:
 
 
 @pytest.fixture(scope="module")
-def table(scene: br.Scene) -> br.StiffnessTable:
+def table(scene: br.Scene) -> br.rotor.StiffnessTable:
     return br.stiffness_table(
         scene, {"axial": [100.0, 400.0], "radial": 50.0}, speeds_rpm=[0.0, 1500.0, 3000.0, 4500.0]
     )
 
 
 def test_a_table_has_a_matrix_for_each_load_and_speed(
-    scene: br.Scene, table: br.StiffnessTable, tmp_path: Path
+    scene: br.Scene, table: br.rotor.StiffnessTable, tmp_path: Path
 ) -> None:
     """Truth: the definition of a case, and a scene of its own for one of them."""
     assert table.stiffness.shape == table.damping.shape == (2, 4, 5, 5)
@@ -193,7 +193,7 @@ def test_a_rigid_shaft_on_two_bearings_has_its_closed_form() -> None:
     np.testing.assert_allclose(found, np.sort(wanted), rtol=1e-3)
 
 
-def test_ross_is_given_what_it_takes(table: br.StiffnessTable) -> None:
+def test_ross_is_given_what_it_takes(table: br.rotor.StiffnessTable) -> None:
     """Truth: the table, and the signature of ROSS 2.3's element."""
     given = table.ross_arguments(load=1)
     assert sorted(given) == sorted(
@@ -209,7 +209,7 @@ def test_ross_is_given_what_it_takes(table: br.StiffnessTable) -> None:
         falling.ross_arguments()
 
 
-def test_ross_finds_the_same_rotor(table: br.StiffnessTable) -> None:
+def test_ross_finds_the_same_rotor(table: br.rotor.StiffnessTable) -> None:
     """Truth: ROSS. An element has the table's matrices, and a stiff shaft on two of them bounces as it should."""
     try:
         ross = importlib.import_module("ross")
@@ -234,7 +234,7 @@ def test_ross_finds_the_same_rotor(table: br.StiffnessTable) -> None:
 
 
 def test_without_ross_one_line_says_how_to_install_it(
-    table: br.StiffnessTable, monkeypatch: pytest.MonkeyPatch
+    table: br.rotor.StiffnessTable, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setitem(sys.modules, "ross", None)
     with pytest.raises(

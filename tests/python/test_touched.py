@@ -62,7 +62,7 @@ def test_by_default_a_spall_lies_where_the_contact_runs(tmp_path: Path) -> None:
     read = br.Signals.read_parquet(tmp_path / "out.parquet")
     assert read.defects == out.defects
     assert read.scene == out.scene
-    assert isinstance(out.defects["spall"], br.Touched)
+    assert isinstance(out.defects["spall"], br.signals.Touched)
 
 
 def test_what_is_not_touched_is_warned_of() -> None:

@@ -30,7 +30,7 @@ def _with(given: dict[str, Any], others: dict[str, Any]) -> dict[str, Any]:
     return given | others
 
 
-def followed(heights: list[float], **options: Any) -> br.Trend:
+def followed(heights: list[float], **options: Any) -> br.trending.Trend:
     records = (taken(k, height) for k, height in enumerate(heights))
     return br.trend(
         records, "6205", RPM, **_with({"fs": FS, "unit": "m/s^2", "speed_within": 1e-3}, options)

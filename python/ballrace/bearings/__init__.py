@@ -30,6 +30,7 @@ which moves BPFO by less than 0.7 %. Makers choose different balls for some size
 
 from __future__ import annotations
 
+from .._later import listed
 from .build import bearing
 from .entry import Bearing, Uncertainty
 from .fits import Seat
@@ -52,3 +53,5 @@ __all__ = [
     "operating_clearance",
     "steady_temperatures",
 ]
+
+__dir__ = listed(__name__)

@@ -21,6 +21,7 @@
 
 from __future__ import annotations
 
+from .._later import listed
 from .bearings import scatter
 from .designs import grid, latin_hypercube, sobol
 from .estimate import Estimate
@@ -40,3 +41,5 @@ __all__ = [
     "sobol",
     "verify",
 ]
+
+__dir__ = listed(__name__)

@@ -58,10 +58,11 @@ class Kept:
         ``row0.passes`` and ``batches`` that these come from (see :func:`ballrace.campaign`); and of every defect
         with a width, such as ``defects.spall``: ``.placed_at``, its axial place [m], ``.passes`` of balls,
         ``.touched``, the share of them in which a contact was loaded within it, and its ``.largest_load`` [N]
-        (see :class:`ballrace.Touched`); last ``measured_clipped``: the largest share of the samples of a case that
-        was beyond the range of a logger in what this object has measured (:meth:`measurements`, :meth:`measure`,
-        :meth:`windows`), empty until then. The file ``manifest.parquet`` has all but that column; its metadata
-        have ``ballrace.digest``, by which those who read it without this package can check it (see the guide).
+        (see :class:`ballrace.signals.Touched`); last ``measured_clipped``: the largest share of the samples of a
+        case that was beyond the range of a logger in what this object has measured (:meth:`measurements`,
+        :meth:`measure`, :meth:`windows`), empty until then. The file ``manifest.parquet`` has all but that column;
+        its metadata have ``ballrace.digest``, by which those who read it without this package can check it (see
+        the guide).
         """
         from .._polars import pl
 

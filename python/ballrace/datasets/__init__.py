@@ -8,7 +8,10 @@ that no bearing is in both parts.
 
 from __future__ import annotations
 
+from .._later import listed
 from .reading import BearingDataset, read_bearing_dataset
 from .split import bearing_split
 
 __all__ = ["BearingDataset", "bearing_split", "read_bearing_dataset"]
+
+__dir__ = listed(__name__)

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .._later import later
+from .._later import later, listed
 
 if TYPE_CHECKING:
     from .arrays import Examples, examples
@@ -45,3 +45,5 @@ __all__ = [
     "domain_report",
     "examples",
 ]
+
+__dir__ = listed(__name__)

@@ -12,9 +12,12 @@ All inner rings are one rigid body that tilts, all outer rings another, with the
 
 from __future__ import annotations
 
+from .._later import listed
 from .forces import belt, force, gear
 from .pairs import Arrangement, pair
 from .reactions import Reaction, reactions
 from .shafts import shaft
 
 __all__ = ["Arrangement", "Reaction", "belt", "force", "gear", "pair", "reactions", "shaft"]
+
+__dir__ = listed(__name__)

@@ -25,7 +25,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .._later import later
+from .._later import later, listed
 
 if TYPE_CHECKING:
     from .dispatch import read
@@ -43,3 +43,5 @@ else:
     )
 
 __all__ = ["RecordFolder", "Recording", "read", "read_folder"]
+
+__dir__ = listed(__name__)

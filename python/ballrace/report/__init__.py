@@ -11,9 +11,12 @@ True
 
 from __future__ import annotations
 
+from .._later import listed
 from .campaign import campaign_page
 from .page import Page
 from .run import run_page
 from .writing import write_page
 
 __all__ = ["Page", "campaign_page", "run_page", "write_page"]
+
+__dir__ = listed(__name__)

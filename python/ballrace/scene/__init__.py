@@ -11,6 +11,7 @@ Where a field may be one of several things, its type says so: ``friction="none"`
 
 from __future__ import annotations
 
+from .._later import listed
 from .approximations import Approximations
 from .bearing import GothicArch, RaceProfile, Ring, RingName, Row, Waviness
 from .cage import Cage
@@ -130,3 +131,5 @@ __all__ = [
     "Width",
     "WidthProfile",
 ]
+
+__dir__ = listed(__name__)

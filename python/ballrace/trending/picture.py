@@ -30,7 +30,7 @@ _NAMES = {
 
 
 def picture(of: Trend, fig: go.Figure | None, layout: dict[str, Any]) -> go.Figure:
-    """Draw a trend; see :meth:`ballrace.Trend.plot`."""
+    """Draw a trend; see :meth:`ballrace.trending.Trend.plot`."""
     fig = fig if fig is not None else stack(("z of the parts", "quantities over their limits"))
     time = of.table["time"].to_numpy()
     parts = [name for name in of.table.columns if name.endswith(".z")]

@@ -37,7 +37,7 @@ def run(scene: br.Scene) -> tuple[Array, float]:
 
 def rest(scene: br.Scene) -> float:
     """Return the heaviest contact [N] at rest; the equations are open to one's own integrator."""
-    found: br.Equilibrium = br.equilibrium(scene)
+    found: br.statics.Equilibrium = br.equilibrium(scene)
     model = br.Model(scene)
     rates: Array = model.rhs(0.0, model.start())
     assert rates.shape == (len(model.names),)
