@@ -48,7 +48,7 @@ pub(super) struct Element<T> {
     /// Shares of the normal force in the plane and along the axis, over its magnitude.
     pub share: (T, T),
     /// Weight of friction over the normal force.
-    pub rubbing: T,
+    pub friction_weight: T,
 }
 
 /// Takes the elements of a whole contact.
@@ -67,18 +67,18 @@ pub(super) fn zone<T: Number>(cut: &Cut, section: &Section<T>, half_curvature: T
 }
 
 /// Hands all elements of a whole contact to their receiver. `SYMMETRIC` says that the zone is, so that half of it stands
-/// for the whole. `rubbing` is what friction weighs at fitted nodes, if not the same as the normal force.
+/// for the whole. `friction_weight` is what friction weighs at fitted nodes, if not the same as the normal force.
 #[inline(always)]
 pub(super) fn elements<T: Number, const FMA: bool, const SYMMETRIC: bool>(
     law: &Law,
     slices: &ZoneSlices,
-    rubbing: Option<&[T]>,
+    friction_weight: Option<&[T]>,
     contact: &Whole<T>,
     to: &mut impl Receiver<T>,
 ) {
     law.elastic.choose(Elements::<_, _, FMA, SYMMETRIC> {
         slices,
-        rubbing,
+        friction_weight,
         contact,
         to,
     });
@@ -87,7 +87,7 @@ pub(super) fn elements<T: Number, const FMA: bool, const SYMMETRIC: bool>(
 /// The elements of a contact, for one elastic law.
 struct Elements<'a, T, R, const FMA: bool, const SYMMETRIC: bool> {
     slices: &'a ZoneSlices,
-    rubbing: Option<&'a [T]>,
+    friction_weight: Option<&'a [T]>,
     contact: &'a Whole<T>,
     to: &'a mut R,
 }
@@ -99,7 +99,7 @@ impl<T: Number, R: Receiver<T>, const FMA: bool, const SYMMETRIC: bool> ForLaw
     fn run<L: ElasticLaw>(self) {
         let Self {
             slices,
-            rubbing,
+            friction_weight,
             contact,
             to,
         } = self;
@@ -108,8 +108,8 @@ impl<T: Number, R: Receiver<T>, const FMA: bool, const SYMMETRIC: bool> ForLaw
             ZoneSlices::Fitted(rules) if L::FLAT => {
                 for (k, (x, weight, times)) in nodes::<SYMMETRIC>(rules) {
                     let mut element = contact.on_tangent::<L, FMA>(half * x, half * weight);
-                    if let Some(rubbing) = rubbing {
-                        element.rubbing = rubbing[k];
+                    if let Some(friction_weight) = friction_weight {
+                        element.friction_weight = friction_weight[k];
                     }
                     to.element::<FMA, SYMMETRIC>(&element, times);
                 }
@@ -119,8 +119,8 @@ impl<T: Number, R: Receiver<T>, const FMA: bool, const SYMMETRIC: bool> ForLaw
                 for (k, (x, weight, times)) in nodes::<SYMMETRIC>(rules) {
                     let mut element =
                         contact.on_chord::<L, FMA, SYMMETRIC>(reach * x, half * weight);
-                    if let Some(rubbing) = rubbing {
-                        element.rubbing = rubbing[k];
+                    if let Some(friction_weight) = friction_weight {
+                        element.friction_weight = friction_weight[k];
                     }
                     to.element::<FMA, SYMMETRIC>(&element, times);
                 }
@@ -160,7 +160,7 @@ pub(super) fn as_one<T: Number>(contact: &Whole<T>, stiffness: f64) -> Element<T
         length: one,
         load: pressed * pressed.sqrt() * stiffness,
         share: contact.section.normal,
-        rubbing: one,
+        friction_weight: one,
     }
 }
 
@@ -214,7 +214,7 @@ impl<T: Number> Whole<T> {
             length: width,
             load: L::load::<T, FMA>(self.strength, depth),
             share: (sin.same(1.0), tan),
-            rubbing: sin.same(1.0),
+            friction_weight: sin.same(1.0),
         }
     }
 
@@ -232,7 +232,7 @@ impl<T: Number> Whole<T> {
             length,
             load: L::load::<T, FMA>(self.strength, depth),
             share: self.section.normal,
-            rubbing: u.same(1.0),
+            friction_weight: u.same(1.0),
         }
     }
 
@@ -290,7 +290,7 @@ pub(super) struct ElementState<T> {
     /// Shares of the normal force in the plane and along the axis, over its magnitude.
     pub share: (T, T),
     /// Weight of friction over the normal force.
-    pub rubbing: T,
+    pub friction_weight: T,
     /// sin α and cos α: the meridional direction of slip is −sin α n_e + cos α ẑ.
     pub slope: (T, T),
     /// Velocity of the ball's surface against the ring's along n_e, t_e and z \[m/s\].
@@ -374,11 +374,11 @@ pub(super) fn force<
         let sliding = of.sliding(approach, v_t.mul_add::<FMA>(v_t, u_m * u_m));
         if BEND {
             (factor, bend) = traction.factor_and_bend(&sliding);
-            bend = bend * of.rubbing;
+            bend = bend * of.friction_weight;
         } else {
             factor = traction.factor(&sliding);
         }
-        factor = factor * of.rubbing;
+        factor = factor * of.friction_weight;
         let drag = factor * pressed;
         let meridional = drag * u_m;
         friction = [meridional * sin, -(drag * v_t), -(meridional * cos)];

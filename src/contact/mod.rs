@@ -36,7 +36,7 @@ mod stiffness;
 use nalgebra::{Vector2, Vector3};
 
 pub(crate) use batch::{
-    Across, BatchForces, Constants, EightContacts, Places, RingLanes, Rubbing, Summing,
+    Across, BatchForces, Constants, EightContacts, FrictionWeights, Places, RingLanes, Summing,
 };
 pub(crate) use closed_form::{AxiallyFixedBalls, AxiallyFixedRace, InPlane, hertz_stiffness};
 #[doc(hidden)]
@@ -100,7 +100,7 @@ pub struct Touch {
     /// Penetration that the law saw \[m\].
     pub depth: f64,
     /// Weight of friction here over the normal force, about 1 (see `quadrature`).
-    pub rubbing: f64,
+    pub friction_weight: f64,
     /// Elastic part of the normal force \[N\].
     pub elastic: f64,
     /// Normal force with damping, after clamping \[N\].

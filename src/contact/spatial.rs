@@ -123,13 +123,13 @@ impl Touch {
     /// `friction` (0 or 1).
     pub(crate) fn on_ball(&self, normal: f64, friction: f64) -> Wrench {
         let pressing = self.n_e * (-normal * self.share.0);
-        let rubbing = Vector3::from(self.friction_on_ball()) * friction;
+        let friction = Vector3::from(self.friction_on_ball()) * friction;
         let arm = Vector3::new(self.arm_ball.x, self.arm_ball.y, self.zeta);
-        let mut moment = arm.cross(&rubbing);
+        let mut moment = arm.cross(&friction);
         // Nothing where the surface of the ball is whole.
         moment += self.swing * cross(self.arm_ball, pressing);
         Wrench {
-            force: Vector3::new(pressing.x, pressing.y, -normal * self.share.1) + rubbing,
+            force: Vector3::new(pressing.x, pressing.y, -normal * self.share.1) + friction,
             moment,
         }
     }

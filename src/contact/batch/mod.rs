@@ -7,13 +7,13 @@
 // Everything here must be compiled for the instructions of its caller.
 #![allow(clippy::inline_always)]
 
+mod friction_weights;
 mod gather;
 mod points;
-mod rubbing;
 mod tilted;
 
+pub(crate) use friction_weights::FrictionWeights;
 pub(crate) use gather::{Across, Constants, EightContacts, Places, RingLanes};
-pub(crate) use rubbing::Rubbing;
 
 use super::kernel::{self, Element, ElementForce, ElementState, Receiver, Whole};
 use super::laws::traction::Rolling;
@@ -37,7 +37,7 @@ pub(crate) struct BatchForces {
 /// How the force of a contact is summed.
 pub(crate) enum Summing<'a> {
     /// Element by element.
-    Elements(InstructionSet, &'a mut Rubbing),
+    Elements(InstructionSet, &'a mut FrictionWeights),
     /// The contact as a whole under Hertz's law, by its stiffness.
     AsOne(f64),
 }
@@ -202,10 +202,21 @@ impl Pair {
                 let element = kernel::as_one(whole, stiffness);
                 to.element::<FMA, false>(&element, self.slices.count());
             }
-            Summing::Elements(instructions, rubbing) => {
-                let rubbing =
-                    rubbing.at_nodes::<FMA>(instructions, (self, sigma), whole, moves, None);
-                kernel::elements::<_, FMA, SYMMETRIC>(&self.law, &self.slices, rubbing, whole, to);
+            Summing::Elements(instructions, friction_weight) => {
+                let friction_weight = friction_weight.at_nodes::<FMA>(
+                    instructions,
+                    (self, sigma),
+                    whole,
+                    moves,
+                    None,
+                );
+                kernel::elements::<_, FMA, SYMMETRIC>(
+                    &self.law,
+                    &self.slices,
+                    friction_weight,
+                    whole,
+                    to,
+                );
             }
         }
     }
@@ -279,7 +290,7 @@ impl Sums<'_> {
         ElementState {
             elastic,
             share: element.share,
-            rubbing: element.rubbing,
+            friction_weight: element.friction_weight,
             slope: element.slope,
             velocity: [
                 moves.v_e,

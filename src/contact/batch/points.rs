@@ -7,7 +7,7 @@
 #![allow(clippy::inline_always)]
 
 use super::tilted::SpatialSums;
-use super::{Across, BatchForces, EightContacts, Moves, Place, Rubbing, Sums};
+use super::{Across, BatchForces, EightContacts, FrictionWeights, Moves, Place, Sums};
 use crate::contact::kernel::{Element, Receiver, Whole};
 use crate::contact::laws::elastic::{ElasticLaw, ForLaw};
 use crate::contact::profile::{Contour, FLAT, REACH, SHALLOW, SNUG, Section, SurfacePoint, Zone};
@@ -47,11 +47,11 @@ impl Pair {
         eight: &EightContacts,
         ring: &Motion,
         contour: &Contour,
-        (instructions, rubbing): (InstructionSet, &mut Rubbing),
+        (instructions, friction_weight): (InstructionSet, &mut FrictionWeights),
     ) -> BatchForces {
         let (curve, found, whole, moves, place) = self.place_on_curve::<FMA>(eight, ring, contour);
         let middle = (found.ends.0 + found.ends.1) * 0.5;
-        let rubbing = rubbing.at_nodes::<FMA>(
+        let friction_weight = friction_weight.at_nodes::<FMA>(
             instructions,
             (self, Lanes::all(self.race.sigma)),
             &whole,
@@ -59,7 +59,7 @@ impl Pair {
             Some(middle),
         );
         let mut sums = Sums::new(self, Lanes::all(self.race.sigma), &whole, &moves);
-        self.elements_on_curve::<FMA>(&curve, &found, (&whole, middle), rubbing, &mut sums);
+        self.elements_on_curve::<FMA>(&curve, &found, (&whole, middle), friction_weight, &mut sums);
         sums.on_bodies(&place)
     }
 
@@ -70,13 +70,13 @@ impl Pair {
         (eight, turning): (&EightContacts, Across),
         ring: &Motion,
         contour: &Contour,
-        (instructions, rubbing): (InstructionSet, &mut Rubbing),
+        (instructions, friction_weight): (InstructionSet, &mut FrictionWeights),
     ) -> (BatchForces, [Across; 2]) {
         let (curve, found, whole, moves, place) = self.place_on_curve::<FMA>(eight, ring, contour);
         let middle = (found.ends.0 + found.ends.1) * 0.5;
         let turning = place.along_contact(turning, self.race.sigma);
         let turns = (&moves, turning);
-        let rubbing = rubbing.at_nodes_turning::<FMA, true>(
+        let friction_weight = friction_weight.at_nodes_turning::<FMA, true>(
             instructions,
             (self, Lanes::all(self.race.sigma)),
             &whole,
@@ -88,7 +88,7 @@ impl Pair {
             turning,
             moments: [Lanes::ZERO; 2],
         };
-        self.elements_on_curve::<FMA>(&curve, &found, (&whole, middle), rubbing, &mut sums);
+        self.elements_on_curve::<FMA>(&curve, &found, (&whole, middle), friction_weight, &mut sums);
         sums.on_bodies(eight, &place)
     }
 
@@ -143,7 +143,7 @@ impl Pair {
         curve: &OnCurve<'_>,
         found: &Meetings,
         (whole, middle): (&Whole<Lanes>, Lanes),
-        rubbing: Option<&[Lanes]>,
+        friction_weight: Option<&[Lanes]>,
         to: &mut impl Receiver<Lanes>,
     ) {
         // What is not evaluated here stands clear of the race.
@@ -154,7 +154,7 @@ impl Pair {
             whole,
             d: found.regular.choose(curve.d, clear),
             middle,
-            rubbing,
+            friction_weight,
             to,
         });
     }
@@ -333,7 +333,7 @@ struct CurveElements<'a, R, const FMA: bool> {
     /// u of the zones' middles \[m\].
     middle: Lanes,
     /// Weights of friction at nodes over the normal force, if not the same.
-    rubbing: Option<&'a [Lanes]>,
+    friction_weight: Option<&'a [Lanes]>,
     to: &'a mut R,
 }
 
@@ -354,8 +354,8 @@ impl<R: Receiver<Lanes>, const FMA: bool> ForLaw for CurveElements<'_, R, FMA> {
                         let place = (point.sin, point.cos, point.tan);
                         self.on_surface::<L>(place, length * point.stretch)
                     };
-                    if let Some(rubbing) = self.rubbing {
-                        element.rubbing = rubbing[k];
+                    if let Some(friction_weight) = self.friction_weight {
+                        element.friction_weight = friction_weight[k];
                     }
                     self.to.element::<FMA, false>(&element, 1);
                 }
@@ -410,7 +410,7 @@ impl<R, const FMA: bool> CurveElements<'_, R, FMA> {
             length: width,
             load: L::load::<Lanes, FMA>(self.whole.strength, depth),
             share: (Lanes::all(1.0), tan),
-            rubbing: Lanes::all(1.0),
+            friction_weight: Lanes::all(1.0),
         }
     }
 
@@ -429,7 +429,7 @@ impl<R, const FMA: bool> CurveElements<'_, R, FMA> {
             length,
             load: L::load::<Lanes, FMA>(whole.strength, depth),
             share: whole.section.normal,
-            rubbing: Lanes::all(1.0),
+            friction_weight: Lanes::all(1.0),
         }
     }
 }

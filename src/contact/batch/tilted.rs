@@ -6,7 +6,7 @@
 // Everything here must be compiled for the instructions of its caller.
 #![allow(clippy::inline_always)]
 
-use super::{Across, BatchForces, EightContacts, Place, RingLanes, Rubbing, Sums};
+use super::{Across, BatchForces, EightContacts, FrictionWeights, Place, RingLanes, Sums};
 use crate::contact::kernel::{self, Element, Receiver};
 use crate::contact::{Motion, Pair};
 use crate::simd::{InstructionSet, Lanes, Mask};
@@ -28,7 +28,7 @@ impl Pair {
         &self,
         (eight, turning): (&EightContacts, Across),
         ring: &Motion,
-        (instructions, rubbing): (InstructionSet, &mut Rubbing),
+        (instructions, friction_weight): (InstructionSet, &mut FrictionWeights),
     ) -> (BatchForces, [Across; 2]) {
         let ring = &RingLanes::of(ring, self.race.sigma);
         let (whole, moves, place) = self.place::<FMA, false>(eight, ring, Mask::default());
@@ -39,7 +39,7 @@ impl Pair {
             moments: [Lanes::ZERO; 2],
         };
         let turns = (&moves, turning);
-        let rubbing = rubbing.at_nodes_turning::<FMA, true>(
+        let friction_weight = friction_weight.at_nodes_turning::<FMA, true>(
             instructions,
             (self, ring.sigma),
             &whole,
@@ -47,7 +47,7 @@ impl Pair {
             None,
         );
         let slices = &self.slices;
-        kernel::elements::<_, FMA, false>(&self.law, slices, rubbing, &whole, &mut sums);
+        kernel::elements::<_, FMA, false>(&self.law, slices, friction_weight, &whole, &mut sums);
         sums.on_bodies(eight, &place)
     }
 }
@@ -99,10 +99,10 @@ impl Receiver<Lanes> for SpatialSums<'_> {
         let force = kernel::force::<_, FMA, SYMMETRIC, false, true>(law, &state, across);
         self.sums.add::<SYMMETRIC>(&force, state.arm, times);
         if law.traction.is_some() {
-            let ([about_n, about_t], rubbing) = (self.moments, force.friction);
+            let ([about_n, about_t], friction) = (self.moments, force.friction);
             self.moments = [
-                about_n - zeta * rubbing[1],
-                about_t + (zeta * rubbing[0] - h * rubbing[2]),
+                about_n - zeta * friction[1],
+                about_t + (zeta * friction[0] - h * friction[2]),
             ];
         }
     }

@@ -271,7 +271,7 @@ impl Releases for Dent {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::damage::hole::Yield;
+    use crate::contact::damage::hole::Unloading;
     use crate::contact::hertz::Hertz;
     use crate::scene::Material;
 
@@ -297,7 +297,7 @@ mod tests {
     fn change(dent: &Dent, load: f64, at: [f64; 2]) -> f64 {
         let of = race();
         let depth = (load / of.stiffness).powf(2.0 / 3.0);
-        let found = Yield::of(&of, 0.4 * load * depth, &[dent.released(0, depth, at)]);
+        let found = Unloading::of(&of, 0.4 * load * depth, &[dent.released(0, depth, at)]);
         load * (found.share - 1.0)
     }
 

@@ -2,7 +2,7 @@
 
 use super::SurfaceDefect;
 use super::arc::Station;
-use super::hole::Yield;
+use super::hole::Unloading;
 use crate::contact::laws::Law;
 use crate::contact::profile::{RaceSurface, Raise, Section};
 use crate::contact::{Motion, Torus, V2, Waves};
@@ -38,7 +38,7 @@ pub(in crate::contact) struct Facing<'a> {
     pub ring_open: bool,
     pub ball_open: bool,
     /// Scale of the contact's elastic forces by damages smaller than it.
-    pub yields: Yield,
+    pub unloading: Unloading,
     pub section: Section<f64>,
 }
 
@@ -66,7 +66,7 @@ pub(in crate::contact) struct Node {
     /// Distance beside it within which defects are looked for (see [`Station`]).
     pub beside: f64,
     /// Weight of friction here over the normal force.
-    pub rubbing: f64,
+    pub friction_weight: f64,
 }
 
 impl Node {

@@ -105,7 +105,7 @@ impl Facing<'_> {
                 };
                 self.turning((cos, sin), jump * by_angle, jump * by_z)
             }
-            (None, Owner::Ball) => self.central(0.0, self.yields.share * jump),
+            (None, Owner::Ball) => self.central(0.0, self.unloading.share * jump),
             (None, Owner::Ring) => return,
         };
         sink.aside(&aside);
@@ -141,7 +141,7 @@ impl Facing<'_> {
 
     /// Force from derivatives of the energy by α' and, at fixed α', by dz.
     fn turning(&self, (cos, sin): (f64, f64), by_angle: f64, by_z: f64) -> Aside {
-        let (share, per_angle) = (self.yields.share, by_angle / self.section.l);
+        let (share, per_angle) = (self.unloading.share, by_angle / self.section.l);
         self.central(-share * per_angle * sin, share * (per_angle * cos + by_z))
     }
 

@@ -86,7 +86,7 @@ pub(in crate::contact) struct Released {
 
 /// Scale of a contact's elastic forces by damages smaller than it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::contact) struct Yield {
+pub(in crate::contact) struct Unloading {
     /// Share of the forces, g and what is gained.
     pub share: f64,
     /// Share of the energy, e^{−X} and what is gained.
@@ -97,7 +97,7 @@ pub(in crate::contact) struct Yield {
     pub exponent: f64,
 }
 
-impl Default for Yield {
+impl Default for Unloading {
     fn default() -> Self {
         Self {
             share: 1.0,
@@ -116,7 +116,7 @@ impl PittedContact {
     }
 }
 
-impl Yield {
+impl Unloading {
     /// The scale of a contact that has so much energy without its pits, and what these release (15.4).
     pub fn of(contact: &PittedContact, energy: f64, all: &[Released]) -> Self {
         let (_, force) = contact.pressed(energy);
@@ -289,7 +289,7 @@ mod tests {
 
     /// Force of a pitted contact at an approach \[N\], and X.
     fn pressed(of: &PittedContact, hole: &Hole, depth: f64, at: [f64; 2]) -> (f64, f64) {
-        let found = Yield::of(
+        let found = Unloading::of(
             of,
             0.4 * of.stiffness * depth.powf(2.5),
             &[lost(hole.released(of, depth, at))],

@@ -41,7 +41,7 @@ pub(super) use elements::{ElementPair, RingElement, WaveSlope};
 pub(super) use facing::{Facing, Node, SurfaceSide};
 pub(super) use gradient::{BESIDE, Owner};
 pub(crate) use hole::PittedContact;
-pub(super) use hole::Yield;
+pub(super) use hole::Unloading;
 pub(super) use released::Moving;
 pub(crate) use released::{MOST_AT_ONCE, met_at_once};
 
@@ -387,7 +387,7 @@ impl SurfaceDefect {
         let (small, depth) = (self.as_releases()?, contact.approach(load));
         let released = small.released(race, depth, [0.0; 2]);
         let of = &small.bed().contacts[race];
-        let found = Yield::of(of, 0.4 * load * depth, &[released]);
+        let found = Unloading::of(of, 0.4 * load * depth, &[released]);
         Some((load * (1.0 - found.share), found.exponent))
     }
 }

@@ -1,6 +1,6 @@
 //! Damages smaller than a contact in it: the forces that follow from how the energy that they release depends on their places.
 //!
-//! All elastic forces of the contact are scaled by [`Yield`]. Beside that, with U_x = −e^{−X} V_x + R_x and U_y = −e^{−X} V_y + R_y, n_c = cos α' n_e + sin α' ẑ,
+//! All elastic forces of the contact are scaled by [`Unloading`]. Beside that, with U_x = −e^{−X} V_x + R_x and U_y = −e^{−X} V_y + R_y, n_c = cos α' n_e + sin α' ẑ,
 //! τ̂ = −sin α' n_e + cos α' ẑ and t_e = ẑ × n_e (15.5):
 //!
 //! ```text
@@ -15,7 +15,7 @@
 use nalgebra::Vector3;
 
 use super::facing::Facing;
-use super::hole::{Released, Yield};
+use super::hole::{Released, Unloading};
 use super::{Releases, SurfaceDefect};
 use crate::contact::{Aside, Sink, V2, turned, wrapped};
 
@@ -67,7 +67,7 @@ pub(in crate::contact) struct Moving {
 impl MetDamages<'_> {
     /// Effect on a contact with the outer (0) or the inner race (1) that has so much elastic energy without damages \[J\]: a share of
     /// its elastic forces, and more.
-    pub fn release(&self, race: usize, energy: f64) -> Option<(Yield, Moving)> {
+    pub fn release(&self, race: usize, energy: f64) -> Option<(Unloading, Moving)> {
         let of = &self.0[0].as_ref()?.small.bed().contacts[race];
         let (depth, _) = of.pressed(energy);
         let mut places = [None; MOST_AT_ONCE];
@@ -76,7 +76,7 @@ impl MetDamages<'_> {
             released[i] = met.small.released(race, depth, met.place.at);
             places[i] = Some((met.place, released[i]));
         }
-        Some((Yield::of(of, energy, &released), Moving { places }))
+        Some((Unloading::of(of, energy, &released), Moving { places }))
     }
 }
 
@@ -142,7 +142,7 @@ impl<'a> Facing<'a> {
     pub(in crate::contact) fn place_forces<S: Sink + ?Sized>(&self, of: &Moving, sink: &mut S) {
         for (place, released) in of.places.iter().flatten() {
             let (lost, gained) = (&released.lost, &released.gained);
-            let left = self.yields.left;
+            let left = self.unloading.left;
             let u_x = -left * lost.by_x + gained.by_x;
             let u_y = -left * lost.by_y + gained.by_y;
             match place.body {

@@ -77,17 +77,25 @@ impl Pair {
             oil: held.around.oil,
         };
         let HeldElements {
-            elements, rubbing, ..
+            elements,
+            friction_weight,
+            ..
         } = nodes;
         let (whole, sigma) = (&held.whole, Lanes::all(self.race.sigma));
         let weights = if N > AXIAL {
             let turns = (&moves, [twist[AXIAL], twist[AXIAL + 1]]);
-            rubbing.at_nodes_turning::<FMA, true>(instructions, (self, sigma), whole, turns, None)
+            friction_weight.at_nodes_turning::<FMA, true>(
+                instructions,
+                (self, sigma),
+                whole,
+                turns,
+                None,
+            )
         } else {
-            rubbing.at_nodes::<FMA>(instructions, (self, sigma), whole, &moves, None)
+            friction_weight.at_nodes::<FMA>(instructions, (self, sigma), whole, &moves, None)
         };
         for (element, weight) in elements.iter_mut().zip(weights.into_iter().flatten()) {
-            element.rubbing = *weight;
+            element.friction_weight = *weight;
         }
     }
 

@@ -17,7 +17,7 @@ mod slope;
 pub(crate) use packs::{SlicePack, SlicePacking};
 pub(crate) use slope::{AXIAL, FREE, HeldSlope, PlaneVector, in_contact};
 
-use super::batch::{Across, EightContacts, RingLanes, Rubbing};
+use super::batch::{Across, EightContacts, FrictionWeights, RingLanes};
 use super::kernel::{self, Element, ElementForce, ElementState, Receiver, Whole};
 use super::laws::traction::Rolling;
 use super::slip::Moves;
@@ -33,7 +33,7 @@ pub(crate) struct HeldElement {
     hardening: Lanes,
     share: (Lanes, Lanes),
     /// Weight of friction at the velocities at which the element was found.
-    rubbing: Lanes,
+    friction_weight: Lanes,
     slope: (Lanes, Lanes),
     /// Moments about the ball's centre of unit forces along n_e and t_e.
     levers: PlaneVector,
@@ -65,7 +65,7 @@ pub(crate) struct HeldElements {
     elements: Vec<HeldElement>,
     /// Rolling of as many elements, or none where the law reads slip alone.
     rolling: Vec<HeldRolling>,
-    rubbing: Rubbing,
+    friction_weight: FrictionWeights,
 }
 
 impl HeldElements {
@@ -152,15 +152,19 @@ impl Pair {
         let HeldElements {
             elements,
             rolling,
-            rubbing,
+            friction_weight,
         } = nodes;
-        let rubbing = match turning {
-            None => {
-                rubbing.at_nodes::<FMA>(instructions, (self, ring.sigma), &contact, &moves, None)
-            }
+        let friction_weight = match turning {
+            None => friction_weight.at_nodes::<FMA>(
+                instructions,
+                (self, ring.sigma),
+                &contact,
+                &moves,
+                None,
+            ),
             Some(turning) => {
                 let turns = (&moves, place.along_contact(turning, sigma));
-                rubbing.at_nodes_turning::<FMA, true>(
+                friction_weight.at_nodes_turning::<FMA, true>(
                     instructions,
                     (self, ring.sigma),
                     &contact,
@@ -180,7 +184,13 @@ impl Pair {
             regular,
         };
         let slices = &self.slices;
-        kernel::elements::<_, FMA, false>(&self.law, slices, rubbing, &contact, &mut holding);
+        kernel::elements::<_, FMA, false>(
+            &self.law,
+            slices,
+            friction_weight,
+            &contact,
+            &mut holding,
+        );
         HeldContacts {
             whole: contact,
             arm: moves.arm,
@@ -271,7 +281,7 @@ impl Pair {
         let state = ElementState {
             elastic: element.elastic,
             share: element.share,
-            rubbing: element.rubbing,
+            friction_weight: element.friction_weight,
             slope: element.slope,
             velocity,
             load,
@@ -345,14 +355,14 @@ impl Pair {
             [-(m_n * cos), tm * cos, m_z * cos],
         ];
         let f_m = factor * u_m;
-        let rubbing = [-(f_m * sin), factor * v_t, f_m * cos];
+        let friction = [-(f_m * sin), factor * v_t, f_m * cos];
         let (by_n, by_z) = (rubs * in_plane, rubs * axial);
         for i in 0..3 {
             for j in 0..3 {
                 slope[i][j] += slip[i][j];
             }
-            slope[i][0] = rubbing[i].mul_add::<FMA>(by_n, slope[i][0]);
-            slope[i][2] = rubbing[i].mul_add::<FMA>(by_z, slope[i][2]);
+            slope[i][0] = friction[i].mul_add::<FMA>(by_n, slope[i][0]);
+            slope[i][2] = friction[i].mul_add::<FMA>(by_z, slope[i][2]);
         }
         Slope {
             force: slope,
@@ -411,7 +421,7 @@ impl Receiver<Lanes> for Holding<'_> {
                 .above(Lanes::ZERO)
                 .choose(Lanes::all(self.exponent) / element.depth, Lanes::ZERO),
             share: element.share,
-            rubbing: element.rubbing,
+            friction_weight: element.friction_weight,
             slope: element.slope,
             levers: [Lanes::ZERO, arm * sigma],
             place: element.sin * self.radius,

@@ -94,7 +94,7 @@ impl Sink for SlicePacking<'_> {
             0.0
         };
         (element.share.0[lane], element.share.1[lane]) = touch.share;
-        element.rubbing[lane] = touch.rubbing;
+        element.friction_weight[lane] = touch.friction_weight;
         (element.slope.0[lane], element.slope.1[lane]) = (sin, cos);
         rolling.load[lane] = touch.elastic / touch.width;
         rolling.depth[lane] = touch.depth;

@@ -74,18 +74,18 @@ impl<const N: usize> HeldSlope<N> {
     ) {
         let [tt, tm, mm] = of.slip;
         let by_slip = [(tt, tm), (tm, mm)];
-        let rubbing = [of.force[1], of.meridian];
+        let friction = [of.force[1], of.meridian];
         for k in 0..2 {
             let at = AXIAL + k;
             let (along, across) = by_slip[k];
             let column = [-(across * sin), along, across * cos];
             for i in 0..3 {
                 self.by[i][at] = self.by[i][at] - turns[k] * column[i];
-                self.by[at][i] = self.by[at][i] - turns[k] * rubbing[k][i];
+                self.by[at][i] = self.by[at][i] - turns[k] * friction[k][i];
             }
             let about = moment::<FMA>(column[0], column[1], levers);
             self.by[3][at] = self.by[3][at] - turns[k] * about;
-            let about = moment::<FMA>(rubbing[k][0], rubbing[k][1], levers);
+            let about = moment::<FMA>(friction[k][0], friction[k][1], levers);
             self.by[at][3] = self.by[at][3] - turns[k] * about;
             for (l, by) in [along, across].into_iter().enumerate() {
                 let to = &mut self.by[AXIAL + l][at];

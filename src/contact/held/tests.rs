@@ -10,7 +10,7 @@ fn state<T: crate::simd::Number>(of: impl Fn(f64) -> T, velocity: [T; 3]) -> Ele
     ElementState {
         elastic: of(120.0),
         share: (of(0.8), of(0.6)),
-        rubbing: of(0.9),
+        friction_weight: of(0.9),
         slope: (of(0.55), of(f64::sqrt(1.0 - 0.55 * 0.55))),
         velocity,
         load: of(1e5),

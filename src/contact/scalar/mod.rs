@@ -4,10 +4,10 @@
 mod cap_tests;
 mod coat;
 mod ends;
+mod friction_weights;
 #[cfg(test)]
 mod gradient_tests;
 mod pressing;
-mod rubbing;
 mod shape;
 mod slices;
 mod within;
@@ -19,7 +19,7 @@ pub(crate) use within::Sighted;
 
 use std::mem::discriminant;
 
-use super::damage::{Facing, Moving, SurfaceSide, Yield};
+use super::damage::{Facing, Moving, SurfaceSide, Unloading};
 use super::laws::traction::Rolling;
 use super::profile::{Before, Meeting, Raise, Section};
 use super::slip::{Moves, Slip};
@@ -230,7 +230,7 @@ impl Pair {
                 ring_open,
                 // A ring edge is met in another direction than the race.
                 ball_open: ball_near || ring_open && ball.defects.iter().any(|f| cuts(&f)),
-                yields: Yield::default(),
+                unloading: Unloading::default(),
                 section,
             },
             pair: self,
@@ -343,7 +343,7 @@ impl OneContact<'_> {
             (oiled, r)
         });
         let damages = self.release(line);
-        let oiled = oiled.map(|(oiled, r)| (oiled, r * self.facing.yields.share.cbrt()));
+        let oiled = oiled.map(|(oiled, r)| (oiled, r * self.facing.unloading.share.cbrt()));
         if let Some((oiled, r)) = oiled {
             self.oil = FilmEffect::at(&FilmNumbers::new(oiled), r);
             moves.oil = self.oil;
@@ -416,7 +416,7 @@ impl OneContact<'_> {
         }
         let race = usize::from(self.facing.race.sigma < 0.0);
         let (share, moving) = damages.release(race, sum.0)?;
-        self.facing.yields = share;
+        self.facing.unloading = share;
         Some(moving)
     }
 }

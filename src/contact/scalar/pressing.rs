@@ -55,7 +55,7 @@ impl OneContact<'_> {
             met.terms().into_iter().map(at).sum::<f64>()
         };
         let elastic =
-            self.facing.yields.share * split(&|depth| pair.law.elastic.force(depth, node.width));
+            self.facing.unloading.share * split(&|depth| pair.law.elastic.force(depth, node.width));
         if elastic <= 0.0 {
             return false;
         }
@@ -76,11 +76,11 @@ impl OneContact<'_> {
             z: node.z,
             width: node.width,
             depth,
-            rubbing: node.rubbing,
+            friction_weight: node.friction_weight,
             elastic,
             normal: force.normal,
             energy: if sink.asks_energy() {
-                self.facing.yields.energy
+                self.facing.unloading.energy
                     * split(&|depth| pair.law.elastic.energy(depth, node.width))
             } else {
                 0.0
@@ -145,7 +145,7 @@ impl OneContact<'_> {
         ElementState {
             elastic,
             share,
-            rubbing: node.rubbing,
+            friction_weight: node.friction_weight,
             slope,
             velocity,
             load,

@@ -263,15 +263,15 @@ impl OneContact<'_> {
         );
         let product = rules.product(piece.sealed);
         let weighed = self.slip.as_ref().zip(product);
-        let mut rubbing = [if weighed.is_some() { 0.0 } else { 1.0 }; 2 * MOST];
+        let mut friction_weight = [if weighed.is_some() { 0.0 } else { 1.0 }; 2 * MOST];
         if let Some((slip, product)) = weighed {
             let zone = (centre - self.middle, half);
-            product.weights::<_, false>(slip, zone, &mut rubbing);
+            product.weights::<_, false>(slip, zone, &mut friction_weight);
         }
         for (k, (x, weight)) in rules.on(piece.sealed).iter().enumerate() {
             match self.node(line, centre + half * x, half * weight) {
                 Some(mut node) => {
-                    node.rubbing = rubbing.get(k).copied().unwrap_or(1.0);
+                    node.friction_weight = friction_weight.get(k).copied().unwrap_or(1.0);
                     self.slice(&node, sink);
                 }
                 // In a defect, or on a curve through points, past a pole.
@@ -326,7 +326,7 @@ impl OneContact<'_> {
             groove,
             torus_radius: race.a + race.sigma * groove,
             beside: 0.0,
-            rubbing: 1.0,
+            friction_weight: 1.0,
         })
     }
 }

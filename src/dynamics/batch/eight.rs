@@ -2,8 +2,8 @@
 
 use super::{RingView, Single, View};
 use crate::contact::{
-    Across, BatchForces, Constants, Contour, EightContacts, FilmNumbers, Pair, Raise, RingLanes,
-    Rubbing, Summing,
+    Across, BatchForces, Constants, Contour, EightContacts, FilmNumbers, FrictionWeights, Pair,
+    Raise, RingLanes, Summing,
 };
 use crate::model::{Ball, BodyId, Model, Race};
 use crate::simd::{LANES, Lanes, Mask, Task};
@@ -62,7 +62,7 @@ pub(super) struct Group {
     pub turning: Across,
     /// Moments across the axis of a ring that may tilt, on balls in its frame, and on the ring about the frame's origin.
     pub across: [Across; 2],
-    rubbing: Rubbing,
+    friction_weight: FrictionWeights,
 }
 
 impl Group {
@@ -288,13 +288,14 @@ impl<const TILTED: bool> Task for EightOnCurve<'_, TILTED> {
         let model = of.model;
         let race = group.race(0);
         let (pair, view) = (&model.rows[group.class].pairs[race], &of.views[race]);
-        let rubbing = (model.instructions, &mut group.rubbing);
+        let friction_weight = (model.instructions, &mut group.friction_weight);
         if TILTED {
             let held = (&eight, group.turning);
             (group.forces, group.across) =
-                pair.forces_on_curve_tilted::<FMA>(held, &view.ring, contour, rubbing);
+                pair.forces_on_curve_tilted::<FMA>(held, &view.ring, contour, friction_weight);
         } else {
-            group.forces = pair.forces_on_curve::<FMA>(&eight, &view.ring, contour, rubbing);
+            group.forces =
+                pair.forces_on_curve::<FMA>(&eight, &view.ring, contour, friction_weight);
         }
     }
 }
@@ -392,7 +393,7 @@ impl<const TILTED: bool> Eight<'_, TILTED> {
             let inner = RingLanes::of(&of.views[Race::Inner].ring, Race::Inner.sigma());
             ring = ring.or(outer, &inner);
         }
-        let summing = Summing::Elements(of.model.instructions, &mut group.rubbing);
+        let summing = Summing::Elements(of.model.instructions, &mut group.friction_weight);
         group.forces = pair.forces::<FMA, SYMMETRIC>(&eight, &ring, Mask::default(), summing);
     }
 }
@@ -413,10 +414,10 @@ impl<const TILTED: bool> Task for Eight<'_, TILTED> {
         let Self { group, of } = self;
         let race = group.race(0);
         let pair = &of.model.rows[group.class].pairs[race];
-        let rubbing = (of.model.instructions, &mut group.rubbing);
+        let friction_weight = (of.model.instructions, &mut group.friction_weight);
         let held = (&eight, group.turning);
         (group.forces, group.across) =
-            pair.forces_tilted::<FMA>(held, &of.views[race].ring, rubbing);
+            pair.forces_tilted::<FMA>(held, &of.views[race].ring, friction_weight);
     }
 }
 

@@ -12,9 +12,9 @@ use crate::simd::{InstructionSet, LANES, Lanes, Simd, Vector, Wide};
 
 /// Memory for it.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Rubbing(Vec<Lanes>);
+pub(crate) struct FrictionWeights(Vec<Lanes>);
 
-impl Rubbing {
+impl FrictionWeights {
     /// Weights of friction over the normal force at the nodes of whole zones, which have their middle at u = 0 if not elsewhere \[m\];
     /// none where both weigh the same.
     #[inline(always)]
