@@ -18,6 +18,7 @@ __all__ = [
     "counted",
     "finite",
     "positive",
+    "read_only",
     "real",
     "real_row",
     "sampling_rate",
@@ -103,3 +104,10 @@ def real_row(name: str, x: ArrayLike) -> NDArray[np.float64]:
     if np.ma.is_masked(given):
         raise SceneError(name, "an array with masked places", "an array without; fill them")
     return row
+
+
+def read_only(x: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return a view of an array through which it cannot be changed."""
+    view = x.view()
+    view.flags.writeable = False
+    return view

@@ -15,6 +15,7 @@ from ._io.files import PARQUET, as_path
 from ._io.parquet import read_sealed, scan_sealed, sealing
 from ._io.record import Scanned, described, metadata, samples, unless_damaged
 from ._io.whole import whole
+from ._numbers import read_only
 from ._results import Record, Touched
 from ._text import printable
 from .recordings.columns import Columns
@@ -53,8 +54,6 @@ class Signals(Columns):
     'm/s^2'
     """
 
-    _columns: Mapping[str, NDArray[np.float64]]
-
     def __init__(
         self,
         *,
@@ -70,8 +69,9 @@ class Signals(Columns):
         end_state: NDArray[np.float64] | None = None,
     ) -> None:
         self._fs = fs
-        self._t = t
-        self._columns = columns if isinstance(columns, Scanned) else dict(columns)
+        self._t = t if isinstance(t, Scanned) else read_only(t)
+        held = columns if isinstance(columns, Scanned) else _read_only(columns)
+        self._columns: Mapping[str, NDArray[np.float64]] = held
         self._units = dict(units)
         self._scene: str | Scene = scene
         self._stats = Record(stats)
@@ -250,7 +250,7 @@ class Signals(Columns):
         pressure = self._stats.get("largest_pressure")
         rows = json.dumps(self._provenance.get("kinematics", []))
         scene = self.scene.to_json()
-        found = _core.run_features(self, self._fs, scene, pressure, rows, options)
+        found = _core.run_features(self._columns, self._fs, scene, pressure, rows, options)
         return dict(found)
 
     def write(
@@ -264,6 +264,13 @@ class Signals(Columns):
             self.write_parquet(path)
         else:
             super().write(path, columns)
+
+    def _with(self, columns: Mapping[str, NDArray[np.float64]]) -> Signals:
+        return Signals(
+            fs=self._fs, t=self.t, columns=columns, units={name: self._units[name] for name in columns},
+            scene=self.scene.to_json(), stats=self._stats, provenance=self._provenance, warnings=self._warnings,
+            slices=self._slices, end_state=self._end_state,
+        )  # fmt: skip
 
     def _metadata(self) -> dict[str, Any]:
         entries = {"scene": self.scene.to_dict(), "provenance": self._provenance.to_dict()}
@@ -372,6 +379,10 @@ class Signals(Columns):
         entries = unless_damaged(path, lambda: scan_sealed(path))
         columns = Scanned(path)
         return cls(t=columns, columns=columns, **described(path, entries, list(columns)))
+
+
+def _read_only(columns: Mapping[str, NDArray[np.float64]]) -> dict[str, NDArray[np.float64]]:
+    return {name: read_only(x) for name, x in columns.items()}
 
 
 def _shortened(names: list[str], limit: int) -> str:

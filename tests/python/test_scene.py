@@ -757,3 +757,12 @@ def test_no_depth_of_a_document_takes_long_or_recurs(text: str) -> None:
     """16 000 parts took 12 s."""
     with pytest.raises(br.SceneError, match="not TOML"):
         s.Scene.from_toml(text)
+
+
+def test_equal_scenes_have_one_hash() -> None:
+    """Truth: what ``functools.lru_cache`` asks of its arguments; the order of loads says nothing."""
+    scene = br.bearing("6205", radial_load=500.0, axial_load=100.0, speed_rpm=1500.0)
+    again = br.Scene.from_json(scene.to_json())
+    turned = dataclasses.replace(scene, loads=dict(reversed(list(scene.loads.items()))))
+    assert len({scene, again, turned}) == 1
+    assert len({scene, scene.replace({"name": "another"})}) == 2

@@ -107,6 +107,43 @@ def same(one: br.Signals, two: br.Signals) -> None:
     assert one.slices.equals(two.slices)
 
 
+def test_other_programs_take_a_table_with_its_times(out: br.Signals) -> None:
+    """Truth: the columns themselves. pandas is told what to call: it made a table of names alone."""
+    pandas, pyarrow = pytest.importorskip("pandas"), pytest.importorskip("pyarrow")
+    measured = br.measure(out, sensor=br.measuring.Sensor())
+    recording = br.Recording(np.ones((4, 2)), fs=2.0)
+    for of in (out, recording, measured):
+        table = pl.DataFrame(of)
+        assert table.equals(of.to_polars())
+        assert table["t"].to_list() == of.t.tolist()
+        assert pyarrow.table(of).column_names == table.columns
+    for of in (out, recording):
+        with pytest.raises(TypeError, match="to_pandas"):
+            pandas.DataFrame(of)
+
+
+def test_some_columns_are_a_record(out: br.Signals) -> None:
+    some = out[["outer.ay", "outer.ax"]]
+    assert list(some) == ["outer.ay", "outer.ax"]
+    assert some.units == {"outer.ay": "m/s^2", "outer.ax": "m/s^2"}
+    assert some.scene == out.scene
+    assert (some["outer.ay"] == out["outer.ay"]).all()
+    recording = br.Recording(np.ones((4, 2)), fs=2.0, unit="g")[["x_2"]]
+    assert dict(recording.units) == {"x_2": "g"}
+    with pytest.raises(KeyError, match="near are outer"):
+        out[["outer.a"]]
+
+
+def test_arrays_cannot_be_changed(out: br.Signals) -> None:
+    """Truth: what was written into a column was what a file held later."""
+    given = np.ones(4)
+    recording = br.Recording(given, fs=2.0)
+    for x in (out["outer.ay"], out.t, recording["x"]):
+        with pytest.raises(ValueError, match="read-only"):
+            x[0] = 1.0
+    given[0] = 2.0  # an array that was given is its owner's
+
+
 def test_parquet_round_trip(out: br.Signals, tmp_path: Path) -> None:
     path = tmp_path / "run.parquet"
     out.write_parquet(path)
@@ -145,7 +182,7 @@ def test_failed_writes_leave_nothing(
     old.write_text("old")
     _ = out.slices
     plain = br.Signals(
-        fs=out.fs, t=out.t, columns=out, units=out.units, scene=out.scene.to_json(), stats={}, provenance={}
+        fs=out.fs, t=out.t, columns=dict(out), units=out.units, scene=out.scene.to_json(), stats={}, provenance={}
     )  # fmt: skip
     monkeypatch.setattr(pl.DataFrame, "write_parquet", disk_full)
     with pytest.raises(OSError, match="space"):

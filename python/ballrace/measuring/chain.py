@@ -174,6 +174,16 @@ class Measurement:
         )  # fmt: skip
         return sensor.channel(name)
 
+    def __arrow_c_stream__(self, requested_schema: object | None = None) -> object:
+        """Return a table with the time ``t`` and the column ``sensor`` by Arrow's interface for C."""
+        return self.to_polars().__arrow_c_stream__(requested_schema)
+
+    def to_polars(self) -> pl.DataFrame:
+        """Return a table with the time ``t`` and the column ``sensor``."""
+        from .._polars import pl
+
+        return pl.DataFrame({"t": self.t, "sensor": self.x})
+
     def write(self, path: str | os.PathLike[str]) -> None:
         """Write the signal into a file that :func:`ballrace.read` reads, as the column ``sensor``.
 

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..errors import SceneError
-from ..recordings.columns import Columns
 from ..signals import Signals
 from ..statics import Equilibrium, LoadDistribution
 from .style import COLOURS, DASHES, MARKERS, finished
@@ -77,10 +76,7 @@ def load_distribution(
 
 
 def _check_solutions(loads: object) -> None:
-    given: tuple[object, ...] = (loads,)
-    if isinstance(loads, Mapping) and not isinstance(loads, Columns):
-        given = tuple(loads.values())
-    for found in given:
+    for found in loads.values() if isinstance(loads, Mapping) else (loads,):
         if not isinstance(found, Equilibrium | LoadDistribution):
             allowed = "what ballrace.equilibrium or ballrace.load_distribution finds of a scene"
             raise SceneError("loads", f"a {type(found).__name__}", allowed)
@@ -185,7 +181,7 @@ def slice_forces(
 def _tables(cases: object) -> Mapping[str, Mapping[str, NDArray[np.float64]]]:
     if isinstance(cases, Signals):
         return _slices(cases)
-    if isinstance(cases, Columns) or not isinstance(cases, Mapping):
+    if not isinstance(cases, Mapping):
         allowed = "a run, as ballrace.simulate returns it, or tables of slices by titles of panels"
         raise SceneError("cases", f"a {type(cases).__name__}", allowed)
     for label, table in cases.items():

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,6 +10,7 @@ import numpy as np
 from .. import spectra
 from .._numbers import real_row
 from ..errors import SceneError
+from ..recordings.columns import Columns
 from .sources import faults_of, row_of, scene_of, source, spin_of
 from .style import SYMBOLS, finished
 
@@ -221,7 +221,7 @@ def _fault_orders(
 
 def _angle(of: object, column: str) -> ArrayLike:
     """Return an angle of a run or a recording; where the outer ring turns, that of the inner ring against it."""
-    if not isinstance(of, Mapping):
+    if not isinstance(of, Columns):
         raise SceneError(
             "angle", repr(column), "the shaft's angle [rad]: the signal has no columns"
         )
@@ -242,7 +242,7 @@ def _against(of: object, angle: str | ArrayLike) -> NDArray[np.float64] | None:
         or angle != "inner.theta"
     ):
         return None
-    assert isinstance(of, Mapping)
+    assert isinstance(of, Columns)
     found: NDArray[np.float64] = np.asarray(of["inner.theta"]) - np.asarray(of["outer.theta"])
     return found
 

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..errors import SceneError
-from ..recordings.columns import Columns
 from ..spectra import squared_envelope
 from .decimation import min_max
 from .sources import check_columns, faults_of, rates_of, row_of, source, spin_of
@@ -22,6 +21,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..frequencies.operating import FaultFrequencies
+    from ..recordings.columns import Columns
     from ..spectra.bands import Fault
     from ..spectra.checks import Given
 
@@ -111,7 +111,7 @@ def load_cases(
 
 
 def _check_cases(cases: object) -> None:
-    if isinstance(cases, Columns) or not isinstance(cases, Mapping):
+    if not isinstance(cases, Mapping):
         allowed = "runs by the titles of panels, a dict"
         raise SceneError("cases", f"a {type(cases).__name__}", allowed)
     for label, out in cases.items():

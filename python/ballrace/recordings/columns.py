@@ -4,11 +4,8 @@ from __future__ import annotations
 
 import difflib
 from abc import abstractmethod
-from collections.abc import Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
-from numpy.typing import NDArray
+from collections.abc import ItemsView, Iterable, Iterator, KeysView, Mapping, ValuesView
+from typing import TYPE_CHECKING, Any, Self, TypeVar, overload
 
 from .._libraries import needed
 from ..channel import Channel
@@ -19,15 +16,24 @@ from .windows import Origin, windows
 if TYPE_CHECKING:
     import os
 
+    import numpy as np
     import pandas as pd
     import polars as pl
     import xarray as xr
+    from numpy.typing import NDArray
+
+T = TypeVar("T")
 
 __all__ = ["Columns", "no_column"]
 
 
-class Columns(Mapping[str, NDArray[np.float64]]):
-    """A mapping from the names of columns to arrays, all at one sampling rate."""
+class Columns:
+    """Columns at one sampling rate: read-only arrays by their names, as of a mapping.
+
+    ``[name]`` gives an array, ``[[name, other]]`` a record of these columns. Programs that know Arrow's interface
+    for C take it as a table with the time ``t``: ``polars.DataFrame(record)``, ``pyarrow.table(record)``. It is no
+    ``Mapping`` by its type: polars would take a table without the time, pandas one of names alone.
+    """
 
     if TYPE_CHECKING:
 
@@ -46,7 +52,13 @@ class Columns(Mapping[str, NDArray[np.float64]]):
         @property
         def _columns(self) -> Mapping[str, NDArray[np.float64]]: ...
 
-    def __getitem__(self, name: str) -> NDArray[np.float64]:
+    @overload
+    def __getitem__(self, name: str) -> NDArray[np.float64]: ...
+    @overload
+    def __getitem__(self, name: list[str]) -> Self: ...
+    def __getitem__(self, name: str | list[str]) -> NDArray[np.float64] | Self:
+        if isinstance(name, list):
+            return self._with({each: self[each] for each in name})
         try:
             return self._columns[name]
         except KeyError:
@@ -61,10 +73,28 @@ class Columns(Mapping[str, NDArray[np.float64]]):
     def __contains__(self, name: object) -> bool:
         return name in self._columns
 
-    def __eq__(self, other: object) -> bool:
-        return self is other
+    def keys(self) -> KeysView[str]:
+        """Return the names of the columns."""
+        return KeysView(self)
 
-    __hash__ = None  # type: ignore[assignment]
+    def values(self) -> ValuesView[NDArray[np.float64]]:
+        """Return the columns."""
+        return ValuesView(self)
+
+    def items(self) -> ItemsView[str, NDArray[np.float64]]:
+        """Return the names with the columns."""
+        return ItemsView(self)
+
+    @overload
+    def get(self, name: str) -> NDArray[np.float64] | None: ...
+    @overload
+    def get(self, name: str, default: T) -> NDArray[np.float64] | T: ...
+    def get(self, name: str, default: T | None = None) -> NDArray[np.float64] | T | None:
+        """Return a column, or the default where it is not there."""
+        try:
+            return self[name]
+        except KeyError:
+            return default
 
     def channel(self, name: str | None = None) -> Channel:
         """Return one signal with all that is known of it.
@@ -100,6 +130,22 @@ class Columns(Mapping[str, NDArray[np.float64]]):
             unit=self.units.get(name, ""),
             start=start,
             **self._known(),
+        )
+
+    def __arrow_c_stream__(self, requested_schema: object | None = None) -> object:
+        """Return the table with the time ``t`` and all columns by Arrow's interface for C."""
+        return self.to_polars().__arrow_c_stream__(requested_schema)
+
+    def __array__(self, dtype: object = None, copy: bool | None = None) -> NDArray[np.float64]:
+        """Refuse to be an array, which pandas would make a table of without names.
+
+        Raises
+        ------
+        TypeError
+            Always.
+        """
+        raise TypeError(
+            "a record is no array: record.to_pandas(), record.to_polars() or record[name]"
         )
 
     def to_polars(self) -> pl.DataFrame:
@@ -264,6 +310,10 @@ class Columns(Mapping[str, NDArray[np.float64]]):
         if not names:
             raise SceneError("columns", "none", "at least one column")
         return names
+
+    @abstractmethod
+    def _with(self, columns: Mapping[str, NDArray[np.float64]]) -> Self:
+        """Return the same record with other columns, of those that it has."""
 
     @abstractmethod
     def _known(self) -> dict[str, Any]:

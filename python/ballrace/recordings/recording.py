@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import InitVar, dataclass, field
+from dataclasses import InitVar, dataclass, field, replace
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .._numbers import real, real_row, sampling_rate
+from .._numbers import read_only, real, real_row, sampling_rate
 from .._units import canonical
 from ..errors import SceneError
 from .columns import Columns
@@ -135,6 +135,10 @@ class Recording(Columns):
         """Times from the first sample, shape (n_samples,) [s]."""
         return np.arange(self.n_samples) / self.fs
 
+    def _with(self, columns: Mapping[str, NDArray[np.float64]]) -> Recording:
+        units = {name: self.units[name] for name in columns}
+        return replace(self, columns=columns, units=units)
+
     def _metadata(self) -> dict[str, Any]:
         shaft = None if self.shaft is None else float(self.shaft)
         return {"shaft": shaft, "metadata": dict(self.metadata)}
@@ -165,4 +169,4 @@ def _checked(name: str, x: Any) -> NDArray[np.float64]:
     values = real_row(f"columns[{name!r}]", x)
     if values.ndim != 1 or values.size == 0:
         raise SceneError(f"columns[{name!r}]", f"an array of shape {values.shape}", "of shape (n,)")
-    return values
+    return read_only(values)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from types import MappingProxyType
 from typing import Any, Literal
 
@@ -131,6 +131,10 @@ class Scene(Part):
     probes: Mapping[str, Probe] = field(default_factory=_empty)
     approximations: Approximations = Approximations()
     solver: Solver = Solver()
+
+    def __hash__(self) -> int:
+        values = (getattr(self, each.name) for each in fields(self))
+        return hash(tuple(frozenset(v.items()) if isinstance(v, Mapping) else v for v in values))
 
     def __repr__(self) -> str:
         balls = " + ".join(str(row.ball_count) for row in self.rows)
