@@ -1,4 +1,4 @@
-"""Keyword arguments that a function does not have, refused with what to write instead."""
+"""Arguments of any function: keywords that it does not have, and text that no file can hold, are refused."""
 
 from __future__ import annotations
 
@@ -14,6 +14,22 @@ if TYPE_CHECKING:
 
 P = ParamSpec("P")
 T = TypeVar("T")
+
+
+def whole_text(name: str, text: str) -> str:
+    """Return text that is whole.
+
+    Raises
+    ------
+    SceneError
+        It has half of a character, a lone surrogate, which neither files nor the crate can hold.
+    """
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        value = ascii(text) if len(text) < 80 else f"{len(text)} characters"
+        raise SceneError(name, value, "text of whole characters, no lone surrogate") from None
+    return text
 
 
 def knows(meant: Mapping[str, str]) -> Callable[[Callable[P, T]], Callable[P, T]]:

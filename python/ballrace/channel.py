@@ -169,7 +169,7 @@ def channel_of(
     if isinstance(of, str | os.PathLike):
         raise SceneError(name, repr(of), "a record or an array; ballrace.read(path) reads a file")
     if fs is None:
-        raise SceneError("fs", "None", "the sampling rate of the array [Hz]")
+        raise SceneError("fs", "None", "give fs=, the sampling rate of the array [Hz]")
     if column is not None:
         raise SceneError("column", repr(column), "None with an array, which has no columns")
     return Channel(x=real_row(name, of), fs=fs)

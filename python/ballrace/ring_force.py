@@ -124,13 +124,14 @@ def _passed(name: str, force: object) -> _Force:
 
     def called(t: float, *parts: Sequence[float]) -> list[float]:
         motion = RingMotion(*((x, y, z) for x, y, z in parts))
-        given = np.asarray(wrench(t, motion), dtype=np.float64)
-        if given.shape not in ((3,), (6,)) or not np.all(np.isfinite(given)):
+        given = np.asarray(wrench(t, motion))
+        is_number = given.dtype.kind in "biuf"
+        if given.shape not in ((3,), (6,)) or not is_number or not np.isfinite(given).all():
             text = f"{given} at {t:g} s" if given.size <= 6 else f"an array of shape {given.shape}"
             raise SceneError(
                 path, text, "three or six finite numbers: forces [N] and moments [N m]"
             )
-        return [*given.tolist(), 0.0, 0.0, 0.0][:6]
+        return [*map(float, given), 0.0, 0.0, 0.0][:6]
 
     return (
         name, force.ring, called, float(force.stiffness), float(force.damping), peak, bool(force.in_plane)

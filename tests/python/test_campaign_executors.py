@@ -10,6 +10,7 @@ import signal
 import subprocess
 import sys
 import threading
+from collections.abc import Callable
 from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -270,6 +271,39 @@ def test_a_task_that_is_lost_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyP
     assert f"are safe in {tmp_path}, and after Ctrl-C the same call goes on" in texts[0]
     # Again after twice as long each time.
     assert 2 <= len(texts) <= 5
+
+
+def refuses() -> Future[str]:
+    raise RuntimeError("no workers")
+
+
+def cancelled() -> Future[str]:
+    future: Future[str] = Future()
+    future.cancel()
+    future.set_running_or_notify_cancel()
+    return future
+
+
+@pytest.mark.parametrize(
+    ("submitted", "message"),
+    [
+        (refuses, "the executor took no task: RuntimeError: no workers; 0 of 1 cases are safe"),
+        (cancelled, "a worker failed: CancelledError"),
+        (lambda: 5, "its submit returned a int, no Future"),
+    ],
+)
+def test_an_executor_that_does_not_do_as_it_should_is_told(
+    submitted: Callable[[], object], message: str, tmp_path: Path
+) -> None:
+    class Broken(Recorder):
+        def submit(self, *_: object) -> Future[str]:
+            return submitted()  # type: ignore[return-value]
+
+    with pytest.raises(br.CampaignError, match=message):
+        br.campaign(
+            {"loads.radial.force": [500.0]}, tmp_path, scene=br.presets.deep_groove_6205(),
+            duration=0.001, executor=Broken(),
+        )  # fmt: skip
 
 
 class Dask:

@@ -130,3 +130,30 @@ def test_an_error_is_the_same_alone_and_from_a_campaign(
         assert there.value.needed == alone.value.needed
     else:
         assert vars(there.value) == vars(alone.value)
+
+
+HALF = "\ud800"
+"""Half of a character: JSON may have it, files and the crate cannot."""
+
+
+def test_halves_of_characters_are_refused_by_name(tmp_path: Path) -> None:
+    record = br.Recording(np.ones(100), fs=10.0, unit="g")
+    scene = br.presets.deep_groove_6205()
+    cases = [{"loads.radial.force": 500.0, "label": HALF}]
+    for path, call in (
+        ("scene", lambda: br.Scene.from_json(HALF)),
+        ("scene", lambda: br.Scene.from_toml(HALF)),
+        ("label", lambda: record.to_windows(10, label=HALF)),
+        ("bearing_id", lambda: record.to_windows(10, bearing_id=HALF)),
+        ("columns", lambda: record.write(tmp_path / "record.csv", columns={"x": HALF})),
+        ("cases.label", lambda: br.campaign(cases, tmp_path / "campaign", scene=scene)),
+    ):
+        with pytest.raises(br.SceneError, match="whole characters") as caught:
+            call()
+        assert caught.value.path == path
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_an_array_without_its_rate_says_what_to_give() -> None:
+    with pytest.raises(br.SceneError, match="give fs="):
+        br.diagnose(np.ones(1000), "6205", 1500.0)

@@ -157,6 +157,8 @@ def test_what_is_no_force_is_refused_by_name(scene: br.Scene) -> None:
         (returns((1.0, 2.0)), "forces.f = .* at 0 s: three or six finite numbers"),
         (returns((1.0, 2.0, float("nan"))), "forces.f = .*three or six"),
         (returns(None), "forces.f = .*three or six"),
+        (returns("text"), "forces.f = text at 0 s: three or six"),
+        (returns(("1.0", "2.0", "3.0")), "forces.f = .*three or six"),
     ):
         with pytest.raises(br.SceneError, match=message):
             br.simulate(scene, duration=1e-3, forces=forces)  # type: ignore[arg-type]

@@ -8,7 +8,7 @@ import time
 import uuid
 import warnings
 from collections import Counter
-from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Future, wait
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Future, wait
 from contextlib import suppress
 from dataclasses import asdict
 from pathlib import Path
@@ -141,12 +141,19 @@ class Spread:
             "job": asdict(self._job), "stop": self._stop, "cases": chunk,
         }  # fmt: skip
         try:
-            return self._executor.submit(run_task, json.dumps(task))
+            future: object = self._executor.submit(run_task, json.dumps(task))
         except BrokenExecutor as error:
             # It broke since the last look: this chunk is lost as those are that it had.
             failed: Future[str] = Future()
             failed.set_exception(error)
             return failed
+        except Exception as error:
+            text = f"the executor took no task: {type(error).__name__}: {error}"
+            raise CampaignError(text) from error
+        if not isinstance(future, Future):
+            text = f"executor: its submit returned a {type(future).__name__}, no Future"
+            raise CampaignError(f"{text} of concurrent.futures")
+        return future
 
     def _take(self, ended: Iterable[Future[str]]) -> None:
         """Take what ended tasks return, and give what dead workers had to others."""
@@ -154,7 +161,7 @@ class Spread:
         why: BaseException | None = None
         for future in ended:
             chunk = self._pending.pop(future)
-            error = future.exception()
+            error = _error_of(future)
             if error is not None and has_died(error):
                 why = error
                 lost.append(chunk)
@@ -245,6 +252,14 @@ def _size(mean: float | None, threads: int, left: int, in_flight: int) -> int:
         return 1
     fitting = int(_CHUNK * threads / max(mean, 1e-6))
     return max(1, min(fitting, _MOST, math.ceil(left / in_flight)))
+
+
+def _error_of(future: Future[str]) -> BaseException | None:
+    """Return the error of a task that has ended; of one that somebody else cancelled, that."""
+    try:
+        return future.exception()
+    except CancelledError as error:
+        return error
 
 
 def _result(future: Future[str]) -> dict[str, Any]:

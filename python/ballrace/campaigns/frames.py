@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from .._arguments import whole_text
 from ..errors import SceneError
 
 _KINDS = "a table: polars, pandas, Arrow, a list of dicts or a dict of columns"
@@ -42,6 +43,10 @@ def rows_of(table: object) -> tuple[list[dict[str, Any]], list[str]]:
     for name in names:
         if not isinstance(name, str):
             raise SceneError("cases", f"a column {name!r}", "columns with names")
+        whole_text("cases", name)
+        for row in rows:
+            if isinstance(row.get(name), str):
+                whole_text(f"cases.{name}", row[name])
     if not rows:
         raise SceneError("cases", "an empty table", "at least one row")
     return rows, names

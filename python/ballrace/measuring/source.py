@@ -74,7 +74,7 @@ def of_array(
         It is no signal, or there is no sampling rate.
     """
     if fs is None or not 0.0 < real(fs) < math.inf:
-        raise SceneError("fs", repr(fs), "the sampling rate of the array [Hz]")
+        raise SceneError("fs", repr(fs), "give fs=, the sampling rate of the array [Hz]")
     signal = real_row("x", x)
     if signal.ndim == 2 and signal.shape[1] == 3:
         signal = signal @ np.asarray(unit(direction or (0.0, 1.0, 0.0)))

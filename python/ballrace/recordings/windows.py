@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .._arguments import whole_text
 from .._numbers import counted
 from ..errors import SceneError
 
@@ -106,6 +107,9 @@ def windows(
 def _check_labels(label: object, bearing_id: object) -> None:
     if not isinstance(label, str | None):
         raise SceneError("label", repr(label), "text, or None")
+    for name, given in (("label", label), ("bearing_id", bearing_id)):
+        if isinstance(given, str):
+            whole_text(name, given)
     if isinstance(bearing_id, bool) or not isinstance(bearing_id, str | int | np.integer | None):
         raise SceneError("bearing_id", repr(bearing_id), "text, a whole number, or None")
 

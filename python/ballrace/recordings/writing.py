@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from .._arguments import whole_text
 from .._io.files import as_path
 from .._io.whole import whole
 from .formats import by_name
@@ -27,6 +28,8 @@ def write(samples: Samples, path: str | os.PathLike[str]) -> None:
         It cannot be written.
     """
     path = as_path(path)
+    for name in samples.columns:
+        whole_text("columns", name)
     writer = by_name(path).write
     assert writer is not None
     with whole(path) as temporary:

@@ -10,6 +10,7 @@ from types import MappingProxyType
 from typing import Any, Literal
 
 from .. import _core
+from .._arguments import whole_text
 from .._document import LEFT_OUT, Part, decode, encode
 from .._html import folded, paragraph, points
 from .._io.files import as_path
@@ -164,6 +165,7 @@ class Scene(Part):
         SceneError
             Names the first field that is unknown, missing or not usable.
         """
+        whole_text("scene", text)
         try:
             check_depth(text)
         except ValueError as error:
@@ -183,7 +185,7 @@ class Scene(Part):
             Names the first field that is unknown, missing or not usable.
         """
         try:
-            return cls._read(_core.scene_from_json(text))
+            return cls._read(_core.scene_from_json(whole_text("scene", text)))
         except SceneError as error:
             raise _newer(error, json.loads, text) from None
 
