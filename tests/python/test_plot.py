@@ -470,3 +470,32 @@ def test_a_picture_without_kaleido_says_what_to_install(
     with pytest.raises(ImportError, match=r'pip install "ballrace\[image\]"'):
         br.plot.write(br.plot.section(br.bearing("6205")), tmp_path / "section.png")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_bearing_stands_for_rates_of_a_measured_record() -> None:
+    """Truth: the lines of the rates themselves."""
+    record = br.Recording(np.random.default_rng(1).normal(size=4000), fs=4000.0, shaft=29.95)
+    rates = br.fault_frequencies("6205", 1797.0)
+    for draw in (br.plot.envelope_spectrum, br.plot.impacts):
+        wanted = draw(record, rates=rates)
+        assert draw(record, bearing="6205") == wanted
+        array = draw(record["x"], fs=4000.0, bearing="6205", speed_rpm=1797.0)
+        assert (array.data[1:], array.layout.shapes) == (wanted.data[1:], wanted.layout.shapes)
+        with pytest.raises(br.SceneError, match="rates = given: None beside a bearing"):
+            draw(record, bearing="6205", rates=rates)
+        with pytest.raises(br.SceneError, match="bearing = None: a bearing beside speed_rpm"):
+            draw(record, speed_rpm=1797.0)
+    angle = 2.0 * np.pi * 29.95 * record.t
+    wanted = br.plot.order_map(record, angle, rates=rates, faults=["inner_race"])
+    found = br.plot.order_map(record, angle, bearing="6205", faults=["inner_race"])
+    of = [line.y0 for line in wanted.layout.shapes]
+    assert [line.y0 for line in found.layout.shapes] == pytest.approx(of)
+
+
+def test_unknown_arguments_are_refused_by_name() -> None:
+    with pytest.raises(br.SceneError, match=r"speed = 1797\.0: an argument of this picture"):
+        br.plot.psd(np.random.default_rng(1).normal(size=4000), fs=4000.0, speed=1797.0)
+    fig = br.plot.psd(
+        np.ones(4000), fs=4000.0, title_text="title", xaxis_type="log", yaxis={"type": "log"}
+    )
+    assert (fig.layout.title.text, fig.layout.xaxis.type) == ("title", "log")

@@ -11,7 +11,8 @@ from .. import spectra
 from .._numbers import real_row
 from ..errors import SceneError
 from ..recordings.columns import Columns
-from .sources import faults_of, row_of, scene_of, source, spin_of
+from ..scene import Scene
+from .sources import faults_of, rates_of, row_of, scene_of, source, spin_of
 from .style import SYMBOLS, finished
 
 if TYPE_CHECKING:
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     import plotly.graph_objects as go
     from numpy.typing import ArrayLike, NDArray
 
+    from ..bearings import Bearing
     from ..channel import Channel
     from ..frequencies.operating import FaultFrequencies
     from ..spectra import Kurtogram
@@ -95,6 +97,7 @@ def order_map(
     band: tuple[float, float] | None = None,
     faults: Iterable[Fault] | None = None,
     rates: FaultFrequencies | None = None,
+    bearing: str | Bearing | Scene | None = None,
     row: int | None = None,
     highest: float = 20.0,
     fig: go.Figure | None = None,
@@ -124,6 +127,8 @@ def order_map(
         As of :func:`envelope_spectrum`.
     rates : FaultFrequencies, optional
         Where the orders of defects are from; by default the scene's nominal contact angle.
+    bearing : str, Bearing or Scene, optional
+        In place of ``rates``, of a measured record: whose orders count.
     highest : float
         Highest order that is shown.
     fig : plotly.graph_objects.Figure, optional
@@ -168,6 +173,8 @@ def order_map(
     )
     # Between map and bar is room for the names of the lines.
     fig.update_traces(colorbar_xpad=58, selector={"type": "heatmap"})
+    if bearing is not None:
+        rates = rates_of(of, rates, row or 0, bearing, None if isinstance(bearing, Scene) else 60.0)
     _fault_orders(fig, of, faults=faults, rates=rates, row=row, highest=highest)
     what = "the squared envelope" if envelope else "the signal"
     since = "" if turning.start == 0 else _since(turning.start, signal, rate)

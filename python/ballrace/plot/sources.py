@@ -10,7 +10,7 @@ from ..errors import EquilibriumError, SceneError
 from ..frequencies import operating
 from ..frequencies.operating import FaultFrequencies, fault_frequencies
 from ..recordings.columns import Columns
-from ..scene import SpeedDrive
+from ..scene import Scene, SpeedDrive
 from ..scene.defect import SURFACES
 from ..scene.turning import relative_speed
 from ..signals import Signals
@@ -20,7 +20,7 @@ from .style import unit, words
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from ..scene import Scene
+    from ..bearings import Bearing
     from ..spectra.bands import Fault
     from ..spectra.checks import Given
 
@@ -76,11 +76,28 @@ def scene_of(of: object) -> Scene | None:
     return getattr(of, "scene", None)
 
 
-def rates_of(of: object, rates: FaultFrequencies | None, row: int) -> FaultFrequencies | None:
-    """Return the fault frequencies: those given, or of the run's scene at its operating contact angle.
+def rates_of(
+    of: object,
+    rates: FaultFrequencies | None,
+    row: int,
+    bearing: str | Bearing | Scene | None = None,
+    speed_rpm: float | None = None,
+) -> FaultFrequencies | None:
+    """Return the fault frequencies: those given, of a bearing, or of a run's scene under its load.
 
-    Without an equilibrium that angle is the nominal one; where the speed changes there are none.
+    Without an equilibrium they are those at the nominal contact angle; where the speed changes there are none.
+
+    Raises
+    ------
+    SceneError
+        A bearing is given beside rates, or a speed without a bearing, or the record does not know its speed.
     """
+    if bearing is not None:
+        if rates is not None:
+            raise SceneError("rates", "given", "None beside a bearing")
+        return fault_frequencies(bearing, _speed(of, bearing, speed_rpm), row=row)
+    if speed_rpm is not None:
+        raise SceneError("bearing", "None", "a bearing beside speed_rpm")
     scene = scene_of(of)
     if rates is not None or scene is None or not isinstance(scene.drive, SpeedDrive):
         return rates
@@ -91,6 +108,14 @@ def rates_of(of: object, rates: FaultFrequencies | None, row: int) -> FaultFrequ
         return fault_frequencies(known, row=row)
     except EquilibriumError:
         return fault_frequencies(known, row=row, operating=False)
+
+
+def _speed(of: object, bearing: str | Bearing | Scene, speed_rpm: float | None) -> float | None:
+    """Return the speed that is given, or that the record knows [rev/min]; a scene has its own."""
+    shaft = getattr(of, "shaft", None)
+    if speed_rpm is None and shaft and not isinstance(bearing, Scene):
+        return 60.0 * float(shaft)
+    return speed_rpm
 
 
 def spin_of(of: object, rates: FaultFrequencies | None, row: int) -> tuple[float, int] | None:

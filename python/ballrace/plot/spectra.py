@@ -18,7 +18,9 @@ if TYPE_CHECKING:
     import plotly.graph_objects as go
     from numpy.typing import NDArray
 
+    from ..bearings import Bearing
     from ..frequencies.operating import FaultFrequencies
+    from ..scene import Scene
     from ..spectra.bands import Fault
     from ..spectra.checks import Given
 
@@ -29,6 +31,8 @@ def envelope_spectrum(
     of: Given,
     column: str | None = None,
     *,
+    bearing: str | Bearing | Scene | None = None,
+    speed_rpm: float | None = None,
     fs: float | None = None,
     band: tuple[float, float] | None = None,
     squared: bool = True,
@@ -64,6 +68,10 @@ def envelope_spectrum(
     rates : FaultFrequencies, optional
         Fault frequencies, from :func:`ballrace.fault_frequencies`; by default those of the run's scene at its
         operating contact angle. Without any no lines are drawn.
+    bearing : str, Bearing or Scene, optional
+        In place of ``rates``, of a measured record: whose fault frequencies count.
+    speed_rpm : float, optional
+        Speed of its inner ring [rev/min]; by default that of the record.
     row : int, optional
         Row of balls whose frequencies count; by default that of the first defect.
     harmonics, sidebands : int
@@ -94,7 +102,7 @@ def envelope_spectrum(
 
     signal = source(of, column, fs)
     row = row_of(of) if row is None else row
-    found = rates_of(of, rates, row)
+    found = rates_of(of, rates, row, bearing, speed_rpm)
     chosen = faults_of(of, faults, row) if found is not None else ()
     f, value = spectra.envelope_spectrum(signal.x, signal.fs, band, squared)
     spin = spin_of(of, found, row)

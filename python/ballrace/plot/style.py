@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import textwrap
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -9,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from .._io.files import as_path
 from .._io.whole import whole
 from .._libraries import needed
+from ..errors import SceneError
 
 if TYPE_CHECKING:
     import os
@@ -120,7 +122,21 @@ def wrapped(text: str, width: int) -> str:
 
 
 def finished(fig: go.Figure, layout: dict[str, Any], **own: Any) -> go.Figure:
-    """Give a figure the look of all, then its own settings, and at last those of the caller."""
+    """Give a figure the look of all, then its own settings, and at last those of the caller.
+
+    Raises
+    ------
+    SceneError
+        The caller's are no properties of a layout.
+    """
+    known = list(fig.layout)
+    for name, value in layout.items():
+        # ``title_text`` is a property of the title, ``xaxis2`` another of ``xaxis``.
+        if name.partition("_")[0].rstrip("0123456789") not in known:
+            near = difflib.get_close_matches(name, known, n=3)
+            hint = f", such as {', '.join(near)}" if near else ""
+            allowed = f"an argument of this picture, or a property of plotly's layout{hint}"
+            raise SceneError(name, repr(value), allowed)
     common: dict[str, Any] = {
         "template": "plotly_white",
         "font": {"size": 13, "color": "#222"},

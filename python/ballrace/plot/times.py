@@ -20,8 +20,10 @@ if TYPE_CHECKING:
     import plotly.graph_objects as go
     from numpy.typing import NDArray
 
+    from ..bearings import Bearing
     from ..frequencies.operating import FaultFrequencies
     from ..recordings.columns import Columns
+    from ..scene import Scene
     from ..spectra.bands import Fault
     from ..spectra.checks import Given
 
@@ -129,6 +131,8 @@ def impacts(
     fs: float | None = None,
     faults: Iterable[Fault] | None = None,
     rates: FaultFrequencies | None = None,
+    bearing: str | Bearing | Scene | None = None,
+    speed_rpm: float | None = None,
     row: int | None = None,
     band: tuple[float, float] | None = None,
     fig: go.Figure | None = None,
@@ -151,6 +155,10 @@ def impacts(
         Whose hits are marked; by default those that the scene has, else of both races and a ball.
     rates : FaultFrequencies, optional
         Fault frequencies; by default those of the run's scene at its operating contact angle.
+    bearing : str, Bearing or Scene, optional
+        In place of ``rates``, of a measured record: whose fault frequencies count.
+    speed_rpm : float, optional
+        Speed of its inner ring [rev/min]; by default that of the record.
     row : int, optional
         Row of balls whose frequencies count; by default that of the first defect.
     band : tuple of two floats, optional
@@ -177,7 +185,7 @@ def impacts(
 
     signal = source(of, column, fs)
     row = row_of(of) if row is None else row
-    found = rates_of(of, rates, row)
+    found = rates_of(of, rates, row, bearing, speed_rpm)
     if found is None and (rates is not None or faults is not None):
         raise SceneError("rates", "None", "fault frequencies, from ballrace.fault_frequencies")
     fig = fig if fig is not None else Figure()
