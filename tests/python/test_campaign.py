@@ -68,7 +68,7 @@ def test_features_are_those_of_the_signals(tmp_path: Path) -> None:
             # Next to nothing is not a line, whose summit both would find.
             found = row[f"outer.ay.row0.{name}{suffix}"]
             assert found == pytest.approx(value, rel=2e-3, abs=1e-5 * signal.std()), name
-    assert row["outer.ay.row0.ftf"] is None
+    assert "outer.ay.row0.ftf" not in done.manifest.columns  # the record is too short
     assert row["row0.outer.load_max"] > 500.0
 
 

@@ -69,7 +69,7 @@ def test_windows_are_cut_from_the_measurement(done: br.Campaign) -> None:
 def test_what_clips_is_reported_once_and_in_the_manifest(done: br.Campaign) -> None:
     """Limit: a range of a tenth of what the signal reaches clips, one that fits it does not."""
     again = br.Campaign.open(done.folder)
-    assert again.manifest["measured_clipped"].to_list() == [None] * again.manifest.height
+    assert "measured_clipped" not in again.manifest.columns
     fitting = again.measure(m.Chain(logger=m.Logger(bits=16)))
     assert (fitting["clipped"] == 0.0).all()
     assert (fitting["range"] >= fitting["sensor.peak"]).all()

@@ -1,4 +1,4 @@
-"""Columns of results: those of every row, and features without errors."""
+"""Columns of results: those of every row, and features that some row has."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 from ..scene.defect import SURFACES
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     import polars as pl
 
 FAULTS = tuple(f"fault_{surface}" for surface in SURFACES)
@@ -34,12 +36,9 @@ def schema() -> dict[str, Any]:
     return {name: getattr(pl, types.get(name, "String")) for name in (*BASE, *BUDGET)}
 
 
-def without_empty_errors(table: pl.DataFrame) -> pl.DataFrame:
-    """Leave out standard errors of features where no record is long enough for any."""
-    if "batches" not in table.columns or table["batches"].max():
-        return table
-    features = {name for name in table.columns if f"{name}_se" in table.columns}
-    return table.drop(f"{name}_se" for name in features)
+def found_in(table: pl.DataFrame, features: Iterable[str]) -> list[str]:
+    """Return the features that some row has: records may be too short for lines, or for standard errors."""
+    return [name for name in features if table[name].null_count() < table.height]
 
 
 def check_results(frame: pl.DataFrame) -> None:

@@ -10,7 +10,7 @@ from .._io.parquet import collected
 from .._text import printable
 from ..scene import Scene
 from .cases import apply
-from .columns import BASE, BUDGET, without_empty_errors
+from .columns import BASE, BUDGET, found_in
 from .measured import as_signals
 from .verify import verify
 
@@ -60,12 +60,15 @@ class Kept:
         ``.touched``, the share of them in which a contact was loaded within it, and its ``.largest_load`` [N]
         (see :class:`ballrace.signals.Touched`); last ``measured_clipped``: the largest share of the samples of a
         case that was beyond the range of a logger in what this object has measured (:meth:`measurements`,
-        :meth:`measure`, :meth:`windows`), empty until then. The file ``manifest.parquet`` has all but that column;
+        :meth:`measure`, :meth:`windows`). Features that no case has are left out, such as lines for which all
+        records are too short. The file ``manifest.parquet`` has all but ``measured_clipped``;
         its metadata have ``ballrace.digest``, by which those who read it without this package can check it (see
         the guide).
         """
         from .._polars import pl
 
+        if not self._clipped:
+            return self._finished
         columns = {"case_id": pl.String, "measured_clipped": pl.Float64}
         shares = pl.DataFrame(list(self._clipped.items()), schema=columns, orient="row")
         return self._finished.join(shares, on="case_id", how="left", maintain_order="left")
@@ -75,8 +78,9 @@ class Kept:
         """The manifest as it is written."""
         from .._polars import pl
 
-        results = without_empty_errors(self._results)
-        features = sorted(name for name in results.columns if name not in (*BASE, *BUDGET))
+        results = self._results
+        kept = (name for name in results.columns if name not in (*BASE, *BUDGET))
+        features = sorted(found_in(results, kept))
         return (
             self._cases.drop("changes")
             .join(

@@ -18,7 +18,7 @@ from ..measuring.chain import measured as by_chain
 from ..measuring.named import Chains, named_chains
 from ..scene import Scene
 from ..signals import Signals
-from .columns import without_empty_errors
+from .columns import found_in
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -96,12 +96,14 @@ def features_table(
     """Return a line for each measurement: its labels, and its features as ``sensor.rms`` and so on."""
     from .._polars import pl
 
-    rows = []
+    labels, found = [], []
     for line in lines:
         x, fs = line.measurement.x, line.measurement.fs
-        found = features(x, fs, name="sensor", scene=line.scene, skip=skip, band=band)
-        rows.append(line.labels() | found)
-    return without_empty_errors(pl.DataFrame(rows, infer_schema_length=None))
+        labels.append(line.labels())
+        found.append(features(x, fs, name="sensor", scene=line.scene, skip=skip, band=band))
+    table = pl.DataFrame(found, infer_schema_length=None)
+    left = pl.DataFrame(labels, infer_schema_length=None)
+    return left.hstack(table.select(found_in(table, table.columns)))
 
 
 def windows_table(
