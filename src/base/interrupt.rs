@@ -16,9 +16,9 @@ use crate::base::error::{Error, Result};
 /// ```
 /// use ballrace::{Error, Interrupt, equilibrium, scene::presets};
 /// let (stop, scene) = (Interrupt::new(), presets::wheel_bearing(0.0));
-/// assert!(stop.heed(|| equilibrium(&scene)).is_ok());
+/// assert!(stop.scope(|| equilibrium(&scene)).is_ok());
 /// stop.set();
-/// assert!(matches!(stop.heed(|| equilibrium(&scene)), Err(Error::Interrupted { .. })));
+/// assert!(matches!(stop.scope(|| equilibrium(&scene)), Err(Error::Interrupted { .. })));
 /// ```
 #[derive(Debug, Clone, Default)]
 pub struct Interrupt(Arc<AtomicBool>);
@@ -40,8 +40,14 @@ impl Interrupt {
     }
 
     /// Works on this thread until done or asked to stop, which ends it by [`Error::Interrupted`].
-    pub fn heed<T>(&self, work: impl FnOnce() -> T) -> T {
+    pub fn scope<T>(&self, work: impl FnOnce() -> T) -> T {
         under(Limit::Asked(self.clone()), work)
+    }
+
+    /// The former name of [`Self::scope`]; gone in 0.5.
+    #[deprecated(since = "0.4.0", note = "is called `scope`")]
+    pub fn heed<T>(&self, work: impl FnOnce() -> T) -> T {
+        self.scope(work)
     }
 }
 
@@ -52,7 +58,7 @@ pub(crate) fn until<T>(deadline: f64, work: impl FnOnce() -> T) -> T {
 
 /// Fails where the work of this thread is to end.
 pub(crate) fn check() -> Result<()> {
-    let ended = HEEDED.with_borrow(|limits| limits.iter().any(Limit::is_over));
+    let ended = LIMITS.with_borrow(|limits| limits.iter().any(Limit::is_over));
     if ended {
         Err(Error::Interrupted { time: 0.0 })
     } else {
@@ -75,19 +81,19 @@ impl Limit {
 }
 
 thread_local! {
-    static HEEDED: RefCell<Vec<Limit>> = const { RefCell::new(Vec::new()) };
+    static LIMITS: RefCell<Vec<Limit>> = const { RefCell::new(Vec::new()) };
 }
 
 fn under<T>(limit: Limit, work: impl FnOnce() -> T) -> T {
     /// Takes the limit away again, after a panic too.
-    struct Heeded;
-    impl Drop for Heeded {
+    struct Scope;
+    impl Drop for Scope {
         fn drop(&mut self) {
-            HEEDED.with_borrow_mut(Vec::pop);
+            LIMITS.with_borrow_mut(Vec::pop);
         }
     }
-    HEEDED.with_borrow_mut(|limits| limits.push(limit));
-    let _heeded = Heeded;
+    LIMITS.with_borrow_mut(|limits| limits.push(limit));
+    let _scope = Scope;
     work()
 }
 
@@ -96,15 +102,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_heeded_ends_with_the_work() {
+    fn a_scope_ends_with_the_work() {
         let stop = Interrupt::new();
         stop.set();
         assert_eq!(check(), Ok(()));
-        assert!(stop.heed(check).is_err());
-        stop.heed(|| until(clock::now(), || ()));
+        assert!(stop.scope(check).is_err());
+        stop.scope(|| until(clock::now(), || ()));
         assert_eq!(check(), Ok(()));
         assert!(until(clock::now(), check).is_err());
-        let panicked = std::panic::catch_unwind(|| stop.heed(|| panic!("as meant")));
+        let panicked = std::panic::catch_unwind(|| stop.scope(|| panic!("as meant")));
         assert!(panicked.is_err());
         assert_eq!(check(), Ok(()));
     }

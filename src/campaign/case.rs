@@ -63,7 +63,7 @@ impl Case {
         stop: &Interrupt,
     ) -> Outcome {
         let begun = clock::now();
-        let result = stop.heed(|| guarded(|| self.finish(options, stop)));
+        let result = stop.scope(|| guarded(|| self.finish(options, stop)));
         let wall_time = clock::since(begun);
         Outcome {
             index,

@@ -142,7 +142,7 @@ impl<T: Number, const N: usize> Number for Dual<T, N> {
     #[inline(always)]
     fn sqrt(self) -> Self {
         let value = self.value.sqrt();
-        self.chain(value, value.gates(value.same(0.5) / value))
+        self.chain(value, value.positive_then(value.same(0.5) / value))
     }
 
     #[inline(always)]
@@ -159,13 +159,13 @@ impl<T: Number, const N: usize> Number for Dual<T, N> {
     }
 
     #[inline(always)]
-    fn gates(self, other: Self) -> Self {
+    fn positive_then(self, other: Self) -> Self {
         let mut slopes = other.slopes;
         for slope in &mut slopes {
-            *slope = self.value.gates(*slope);
+            *slope = self.value.positive_then(*slope);
         }
         Self {
-            value: self.value.gates(other.value),
+            value: self.value.positive_then(other.value),
             slopes,
         }
     }
@@ -184,7 +184,7 @@ impl<T: Number, const N: usize> Number for Dual<T, N> {
     #[inline(always)]
     fn abs(self) -> Self {
         let one = self.value.same(1.0);
-        let sign = self.value.gates(one) - (-self.value).gates(one);
+        let sign = self.value.positive_then(one) - (-self.value).positive_then(one);
         self.chain(self.value.abs(), sign)
     }
 

@@ -41,7 +41,9 @@ pub(crate) use batch::{
 pub(crate) use closed_form::{AxiallyFixedBalls, AxiallyFixedRace, InPlane, hertz_stiffness};
 #[doc(hidden)]
 pub use damage::SurfaceDefect;
-pub(crate) use damage::{Bed, MOST_AT_ONCE, PittedContact, Sight, Toward, met_at_once};
+pub(crate) use damage::{
+    AngularReach, Bed, ContactDirection, MOST_AT_ONCE, PittedContact, met_at_once,
+};
 #[doc(hidden)]
 pub use frames::Motion;
 pub(crate) use frames::{TiltedRing, attitude_accelerations, attitude_rates, centrifugal};
@@ -57,13 +59,13 @@ pub use laws::{Cut, Elastic};
 #[doc(hidden)]
 pub use laws::{Damping, Law, Traction};
 #[doc(hidden)]
-pub use oil::OilTouch;
+pub use oil::OilForce;
 pub(crate) use profile::{Before, Contour, Curve, HeightTable, Raise, Section};
 #[doc(hidden)]
 pub use profile::{Torus, Waves};
 #[doc(hidden)]
 pub use quadrature::{Rules, ZoneSlices};
-pub(crate) use scalar::Sighted;
+pub(crate) use scalar::DefectContact;
 #[doc(hidden)]
 pub use scalar::{BallSide, Pair, Shape};
 pub(crate) use spatial::{Wrench, WrenchSum};
@@ -90,7 +92,7 @@ pub fn wrapped(angle: f64) -> f64 {
 /// A force between ball and ring: a slice on the race or on a fault circle.
 #[doc(hidden)]
 #[derive(Debug, Clone, Copy)]
-pub struct Touch {
+pub struct ContactForce {
     /// Place of the slice along the ball, from its centre \[m\].
     pub zeta: f64,
     /// Place of the slice in the ring's frame \[m\].
@@ -124,7 +126,7 @@ pub struct Touch {
     /// Contact point from the ball's centre \[m\].
     pub(crate) arm_ball: V2,
     /// Axis about which rotations of the ball turn it along its slice: ẑ but at the edges of a cap (see `damage::cap`).
-    pub(crate) swing: Vector3<f64>,
+    pub(crate) turn_axis: Vector3<f64>,
     /// Whether damping wanted to pull.
     pub pull: bool,
 }
@@ -135,15 +137,15 @@ pub struct Touch {
 /// axial ends of defects. Damping and friction do not follow it.
 #[doc(hidden)]
 #[derive(Debug, Clone, Copy)]
-pub struct Aside {
+pub struct PointForce {
     /// Force on the ball in the plane \[N\].
     pub(crate) plane: V2,
     /// Force on the ball along z \[N\].
     pub(crate) axial: f64,
     /// The point from the ball's centre \[m\].
     pub(crate) arm_ball: V2,
-    /// Axis as of a [`Touch`].
-    pub(crate) swing: Vector3<f64>,
+    /// Axis as of a [`ContactForce`].
+    pub(crate) turn_axis: Vector3<f64>,
     /// Moment on the ball across the ring's axis beside that \[N m\].
     pub(crate) across: V2,
 }
@@ -151,19 +153,19 @@ pub struct Aside {
 /// Receives the single forces of a contact.
 #[doc(hidden)]
 pub trait Sink {
-    /// Whether [`Touch::energy`] is needed; it costs a power a slice.
+    /// Whether [`ContactForce::energy`] is needed; it costs a power a slice.
     fn asks_energy(&self) -> bool {
         false
     }
 
     /// Takes one force.
-    fn touch(&mut self, touch: &Touch);
+    fn force(&mut self, force: &ContactForce);
 
     /// A force beside those along normals.
-    fn aside(&mut self, _force: &Aside) {}
+    fn point(&mut self, _force: &PointForce) {}
 
     /// Takes what the oil does in the contact, after its single forces.
-    fn oil(&mut self, _oil: &OilTouch) {}
+    fn oil(&mut self, _oil: &OilForce) {}
 
     /// A slice would touch but lies beyond a shoulder.
     fn truncated(&mut self) {}

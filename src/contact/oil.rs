@@ -39,7 +39,7 @@ impl<T: Number> RollingResistance<T> {
 
 /// Force of the oil in a contact, as a sink receives it.
 #[derive(Debug, Clone, Copy)]
-pub struct OilTouch {
+pub struct OilForce {
     pub(crate) oil: FilmEffect<f64>,
     /// Cube root of the contact's load over the reference load.
     pub load_measure: f64,
@@ -57,7 +57,7 @@ pub struct OilTouch {
     pub(crate) lever: f64,
 }
 
-impl OilTouch {
+impl OilForce {
     pub(in crate::contact) fn new(
         oiled: &Oiled,
         r: f64,

@@ -8,7 +8,7 @@
 use nalgebra::Vector3;
 
 use super::damage::WITH_RING_AXIS;
-use super::{Aside, OilTouch, Sink, TiltedRing, Touch, V2, cross};
+use super::{ContactForce, OilForce, PointForce, Sink, TiltedRing, V2, cross};
 
 /// Force on a ball \[N\] and moment about its centre \[N m\], in the frame of its ring.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -87,25 +87,25 @@ impl WrenchSum {
     }
 
     /// Adds a force for a share of its normal part given by its magnitude, and with friction scaled by `friction` (0 or 1).
-    pub fn add(&mut self, touch: &Touch, normal: f64, friction: f64) {
-        self.wrench.add(&touch.on_ball(normal, friction));
-        self.on_caps += touch.on_cap(normal);
+    pub fn add(&mut self, force: &ContactForce, normal: f64, friction: f64) {
+        self.wrench.add(&force.on_ball(normal, friction));
+        self.on_caps += force.on_cap(normal);
     }
 }
 
 impl Sink for WrenchSum {
-    fn touch(&mut self, touch: &Touch) {
-        self.add(touch, touch.normal, 1.0);
-        self.pulls += u32::from(touch.pull);
+    fn force(&mut self, force: &ContactForce) {
+        self.add(force, force.normal, 1.0);
+        self.pulls += u32::from(force.pull);
     }
 
-    fn aside(&mut self, force: &Aside) {
+    fn point(&mut self, force: &PointForce) {
         self.wrench.add(&force.on_ball());
         self.on_caps += force.on_cap();
     }
 
-    fn oil(&mut self, touch: &OilTouch) {
-        self.wrench.add(&touch.on_ball());
+    fn oil(&mut self, force: &OilForce) {
+        self.wrench.add(&force.on_ball());
     }
 
     fn truncated(&mut self) {
@@ -113,7 +113,7 @@ impl Sink for WrenchSum {
     }
 }
 
-impl Touch {
+impl ContactForce {
     /// Friction on the ball along x, y and z \[N\].
     pub fn friction_on_ball(&self) -> [f64; 3] {
         [self.friction.x, self.friction.y, self.friction_z]
@@ -127,7 +127,7 @@ impl Touch {
         let arm = Vector3::new(self.arm_ball.x, self.arm_ball.y, self.zeta);
         let mut moment = arm.cross(&friction);
         // Nothing where the surface of the ball is whole.
-        moment += self.swing * cross(self.arm_ball, pressing);
+        moment += self.turn_axis * cross(self.arm_ball, pressing);
         Wrench {
             force: Vector3::new(pressing.x, pressing.y, -normal * self.share.1) + friction,
             moment,
@@ -136,38 +136,38 @@ impl Touch {
 
     /// The part of the moment across the ring's axis with which a share of the normal force turns a cap.
     fn on_cap(&self, normal: f64) -> V2 {
-        self.swing.xy() * cross(self.arm_ball, self.n_e * (-normal * self.share.0))
+        self.turn_axis.xy() * cross(self.arm_ball, self.n_e * (-normal * self.share.0))
     }
 }
 
-impl Aside {
+impl PointForce {
     /// A force in the plane and along z at a point, given from the ball's centre.
     pub(crate) fn at(arm_ball: V2, plane: V2, axial: f64) -> Self {
         Self {
             plane,
             axial,
             arm_ball,
-            swing: WITH_RING_AXIS,
+            turn_axis: WITH_RING_AXIS,
             across: V2::zeros(),
         }
     }
 
     /// The part of the moment across the ring's axis with which it turns a cap.
     fn on_cap(&self) -> V2 {
-        self.swing.xy() * cross(self.arm_ball, self.plane) + self.across
+        self.turn_axis.xy() * cross(self.arm_ball, self.plane) + self.across
     }
 
     /// The wrench on the ball.
     pub(crate) fn on_ball(&self) -> Wrench {
         Wrench {
             force: Vector3::new(self.plane.x, self.plane.y, self.axial),
-            moment: self.swing * cross(self.arm_ball, self.plane)
+            moment: self.turn_axis * cross(self.arm_ball, self.plane)
                 + Vector3::new(self.across.x, self.across.y, 0.0),
         }
     }
 }
 
-impl OilTouch {
+impl OilForce {
     /// The wrench of the rolling resistance on the ball.
     pub(crate) fn on_ball(&self) -> Wrench {
         Wrench {

@@ -14,7 +14,9 @@ use super::closed_form;
 use super::dual::Dual;
 use super::kernel::{self, Element, Receiver, Whole};
 use super::profile::{SHALLOW, Section, Zone};
-use super::{Aside, BallSide, Motion, Pair, Rules, Sink, Touch, Toward, V2, ZoneSlices};
+use super::{
+    BallSide, ContactDirection, ContactForce, Motion, Pair, PointForce, Rules, Sink, V2, ZoneSlices,
+};
 use crate::tilt::Frame;
 
 /// Elastic force on the ball along x, y, z \[N\], and the stiffness −∂force/∂place of the ball against the ring
@@ -68,9 +70,12 @@ impl Pair {
         }
         let sigma = self.race.sigma;
         let resting = Motion::default();
-        let toward = Toward::ball(&resting, n * sigma, self.outwards(angle));
-        let whole =
-            !self.is_near(angle) && !ball.defects.iter().any(|defect| defect.in_reach(&toward));
+        let direction = ContactDirection::ball(&resting, n * sigma, self.outwards(angle));
+        let whole = !self.is_near(angle)
+            && !ball
+                .defects
+                .iter()
+                .any(|defect| defect.in_reach(&direction));
         match self.meridional(&section, swell.height).filter(|_| whole) {
             Some(found) => {
                 let waves = (raise.slope, self.waves.bend(angle));
@@ -103,8 +108,8 @@ impl Pair {
     ) -> Matrix3<f64> {
         let mut stiffness = Matrix3::zeros();
         for i in 0..3 {
-            let aside = Vector3::ith(i, step);
-            let fall = self.elastic(ball, &(place - aside)) - self.elastic(ball, &(place + aside));
+            let shift = Vector3::ith(i, step);
+            let fall = self.elastic(ball, &(place - shift)) - self.elastic(ball, &(place + shift));
             stiffness.set_column(i, &(fall / (2.0 * step)));
         }
         stiffness
@@ -346,12 +351,12 @@ fn add(sum: &mut [f64; 2], first: f64, second: f64) {
 struct ElasticForce(Vector3<f64>);
 
 impl Sink for ElasticForce {
-    fn touch(&mut self, touch: &Touch) {
-        let plane = touch.n_e * (touch.elastic * touch.share.0);
-        self.0 -= Vector3::new(plane.x, plane.y, touch.elastic * touch.share.1);
+    fn force(&mut self, force: &ContactForce) {
+        let plane = force.n_e * (force.elastic * force.share.0);
+        self.0 -= Vector3::new(plane.x, plane.y, force.elastic * force.share.1);
     }
 
-    fn aside(&mut self, force: &Aside) {
+    fn point(&mut self, force: &PointForce) {
         self.0 += Vector3::new(force.plane.x, force.plane.y, force.axial);
     }
 }

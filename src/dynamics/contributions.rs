@@ -25,12 +25,12 @@ pub fn contribution_names() -> Vec<&'static str> {
 /// # Panics
 /// If the length of `y` is wrong.
 pub fn contributions(model: &Model, t: f64, y: &[f64]) -> Vec<(&'static str, Vec<f64>)> {
-    let coated = Films::of(model, y);
-    contributions_coated(coated.as_ref().map_or(model, Films::model), t, y)
+    let films = Films::of(model, y);
+    contributions_with_films(films.as_ref().map_or(model, Films::model), t, y)
 }
 
 /// The same of a model whose films are those of the state.
-pub(crate) fn contributions_coated(
+pub(crate) fn contributions_with_films(
     model: &Model,
     t: f64,
     y: &[f64],

@@ -1,4 +1,4 @@
-//! Films of rings whose speed changes: coats, traction and damping of the races follow the state.
+//! Films of rings whose speed changes: thickness, traction and damping of the races follow the state.
 
 use super::batch::Batch;
 use crate::forces::State;
@@ -26,7 +26,7 @@ impl Films {
         let mut films = Self::new(model)?;
         let mut state = State::new(model);
         state.read(y);
-        films.coat(&state);
+        films.update(&state);
         Some(films)
     }
 
@@ -37,8 +37,8 @@ impl Films {
 
     /// The model with the films of a state, after the contacts were given them.
     pub fn follow(&mut self, state: &State, contacts: &mut Batch) -> &Model {
-        if self.coat(state) {
-            contacts.coat(&self.model);
+        if self.update(state) {
+            contacts.update_films(&self.model);
         }
         &self.model
     }
@@ -50,22 +50,22 @@ impl Films {
 
     /// Gives films and contacts a speed \[rad/s\].
     pub fn set(&mut self, speed: f64, contacts: &mut Batch) {
-        if self.coat_at(speed) {
-            contacts.coat(&self.model);
+        if self.set_speed(speed) {
+            contacts.update_films(&self.model);
         }
     }
 
     /// Gives the films the speed of a state; whether that changes them.
-    fn coat(&mut self, state: &State) -> bool {
+    fn update(&mut self, state: &State) -> bool {
         let [outer, inner] = state.rings();
-        self.coat_at(inner.omega - outer.omega)
+        self.set_speed(inner.omega - outer.omega)
     }
 
-    fn coat_at(&mut self, speed: f64) -> bool {
+    fn set_speed(&mut self, speed: f64) -> bool {
         let changes = speed.to_bits() != self.speed.to_bits();
         if changes {
             self.speed = speed;
-            self.model.coat(speed);
+            self.model.set_film_speed(speed);
         }
         changes
     }

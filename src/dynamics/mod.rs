@@ -26,7 +26,7 @@ use crate::model::{BodyId, BodyKind, DOFS, Degree, Dof, Model, Race, Spring};
 use crate::reduction::Reduction;
 
 pub(crate) use batch::{Batch, Guarantees, RingView, SideConstants, Touching, View};
-pub(crate) use contributions::contributions_coated;
+pub(crate) use contributions::contributions_with_films;
 pub use contributions::{contribution_names, contributions};
 
 use films::Films;
@@ -177,7 +177,7 @@ impl<'m> Dynamics<'m> {
     }
 
     /// The model with the films of the last evaluation, for what is read of its state.
-    pub(crate) fn coated(&self) -> &Model {
+    pub(crate) fn current_model(&self) -> &Model {
         self.films.as_ref().map_or(self.model, Films::model)
     }
 
@@ -187,7 +187,7 @@ impl<'m> Dynamics<'m> {
     }
 
     /// Gives films that follow the rings' speed the one of another evaluation \[rad/s\].
-    pub(crate) fn coat(&mut self, speed: Option<f64>) {
+    pub(crate) fn set_film_speed(&mut self, speed: Option<f64>) {
         if let Some((films, speed)) = self.films.as_mut().zip(speed) {
             films.set(speed, &mut self.contacts);
         }
@@ -361,8 +361,8 @@ impl System for Dynamics<'_> {
 
 /// Reads a state of all bodies of a model whose films are those of the state.
 pub(crate) fn at_films_of<T>(model: &Model, y: &[f64], read: impl FnOnce(&Model) -> T) -> T {
-    let coated = Films::of(model, y);
-    read(coated.as_ref().map_or(model, Films::model))
+    let films = Films::of(model, y);
+    read(films.as_ref().map_or(model, Films::model))
 }
 
 /// The forces that a scene has, beside contacts; apart those that depend on the sum of the others.

@@ -1,6 +1,6 @@
 //! The forces of a contact by their origin.
 
-use crate::contact::{Aside, OilTouch, Sink, Touch, WrenchSum};
+use crate::contact::{ContactForce, OilForce, PointForce, Sink, WrenchSum};
 
 /// Wrench of a contact on its ball by elastic force, damping and friction.
 #[derive(Default)]
@@ -12,18 +12,18 @@ impl SumsByOrigin {
 }
 
 impl Sink for SumsByOrigin {
-    fn touch(&mut self, touch: &Touch) {
+    fn force(&mut self, force: &ContactForce) {
         let [elastic, damping, friction] = &mut self.0;
-        elastic.add(touch, touch.elastic, 0.0);
-        damping.add(touch, touch.normal - touch.elastic, 0.0);
-        friction.add(touch, 0.0, 1.0);
+        elastic.add(force, force.elastic, 0.0);
+        damping.add(force, force.normal - force.elastic, 0.0);
+        friction.add(force, 0.0, 1.0);
     }
 
-    fn aside(&mut self, force: &Aside) {
-        self.0[0].aside(force);
+    fn point(&mut self, force: &PointForce) {
+        self.0[0].point(force);
     }
 
-    fn oil(&mut self, touch: &OilTouch) {
-        self.0[2].oil(touch);
+    fn oil(&mut self, force: &OilForce) {
+        self.0[2].oil(force);
     }
 }

@@ -15,7 +15,7 @@ use serde::Serialize;
 
 use crate::base::error::Result;
 use crate::base::interrupt;
-use crate::contact::Sighted;
+use crate::contact::DefectContact;
 use crate::dynamics::Dynamics;
 use crate::model::{Model, Placed, Race};
 use crate::reduction::{Obstacle, Omission, Reduction};
@@ -184,13 +184,13 @@ fn met(mut result: Touched, defect: &Defect, meeting: &DefectPasses) -> Touched 
     for &(j, race) in contacts {
         let [ball, ring] = model.facing(y, j, race);
         let pair = &model.rows[defect.row].pairs[race];
-        let sighted = Sighted {
+        let at_defect = DefectContact {
             defect: &shape,
             on_ball: defect.on == Surface::Ball,
-            aside: 0.0,
+            offset: 0.0,
             ball: &ball,
         };
-        let found = pair.load_within(&model.balls[j].side, &ball, &ring, &sighted);
+        let found = pair.load_within(&model.balls[j].side, &ball, &ring, &at_defect);
         result.passes += 1;
         result.touched += usize::from(found.within > 0.0);
         result.largest_load = result.largest_load.max(found.within);

@@ -75,9 +75,9 @@ impl Spectrum {
         if top < left || top < right || bend >= 0.0 {
             return (i as f64 * self.spacing, top);
         }
-        let aside = (left - right) / (2.0 * bend);
+        let shift = (left - right) / (2.0 * bend);
         let height = top - (left - right).powi(2) / (8.0 * bend);
-        ((i as f64 + aside) * self.spacing, height)
+        ((i as f64 + shift) * self.spacing, height)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::contact::{Pair, Sink, Touch, V2};
+use crate::contact::{ContactForce, Pair, Sink, V2};
 use crate::model::{Model, Race};
 
 /// A contact in a few numbers.
@@ -50,31 +50,31 @@ pub(super) struct Summary {
 }
 
 impl Sink for Summary {
-    fn touch(&mut self, touch: &Touch) {
-        let half = touch.width / 2.0;
+    fn force(&mut self, force: &ContactForce) {
+        let half = force.width / 2.0;
         if self.weight == 0.0 {
             (self.low, self.high) = (f64::INFINITY, f64::NEG_INFINITY);
         }
-        self.plane += touch.n_e * (touch.normal * touch.share.0);
-        self.axial += touch.normal * touch.share.1;
-        self.weight += touch.normal;
-        self.moment += touch.normal * touch.z;
-        self.slip += touch.normal * touch.slip;
-        self.low = self.low.min(touch.z - half);
-        self.high = self.high.max(touch.z + half);
+        self.plane += force.n_e * (force.normal * force.share.0);
+        self.axial += force.normal * force.share.1;
+        self.weight += force.normal;
+        self.moment += force.normal * force.z;
+        self.slip += force.normal * force.slip;
+        self.low = self.low.min(force.z - half);
+        self.high = self.high.max(force.z + half);
     }
 }
 
 struct List(Vec<SliceForce>);
 
 impl Sink for List {
-    fn touch(&mut self, touch: &Touch) {
+    fn force(&mut self, force: &ContactForce) {
         self.0.push(SliceForce {
-            zeta: touch.zeta,
-            z: touch.z,
-            width: touch.width,
-            penetration: touch.depth,
-            force: touch.normal,
+            zeta: force.zeta,
+            z: force.z,
+            width: force.width,
+            penetration: force.depth,
+            force: force.normal,
         });
     }
 }
@@ -160,9 +160,9 @@ struct Flanks<'a> {
 }
 
 impl Sink for Flanks<'_> {
-    fn touch(&mut self, touch: &Touch) {
-        let other = self.pair.is_beyond_cusp(touch.z);
-        self.sums[usize::from(other)].touch(touch);
+    fn force(&mut self, force: &ContactForce) {
+        let other = self.pair.is_beyond_cusp(force.z);
+        self.sums[usize::from(other)].force(force);
     }
 }
 

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::powers::ContactPowers;
-use crate::contact::{OilTouch, Sink, Touch};
+use crate::contact::{ContactForce, OilForce, Sink};
 use crate::forces::{self, Account};
 use crate::model::{Dof, Model, Race};
 
@@ -65,12 +65,12 @@ impl Sink for Contacts {
         true
     }
 
-    fn touch(&mut self, touch: &Touch) {
-        self.energy += touch.energy;
-        self.powers.touch(touch);
+    fn force(&mut self, force: &ContactForce) {
+        self.energy += force.energy;
+        self.powers.force(force);
     }
 
-    fn oil(&mut self, oil: &OilTouch) {
+    fn oil(&mut self, oil: &OilForce) {
         self.powers.oil(oil);
     }
 }

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::powers::ContactPowers;
 use crate::contact::film::FilmNow;
-use crate::contact::{Aside, OilTouch, Sink, Touch, WrenchSum};
+use crate::contact::{ContactForce, OilForce, PointForce, Sink, WrenchSum};
 use crate::forces;
 use crate::model::{Dof, Model, Race};
 
@@ -69,16 +69,16 @@ struct Resistance {
 }
 
 impl Sink for Resistance {
-    fn touch(&mut self, touch: &Touch) {
-        self.on_ball.touch(touch);
-        self.powers.touch(touch);
+    fn force(&mut self, force: &ContactForce) {
+        self.on_ball.force(force);
+        self.powers.force(force);
     }
 
-    fn aside(&mut self, force: &Aside) {
-        self.on_ball.aside(force);
+    fn point(&mut self, force: &PointForce) {
+        self.on_ball.point(force);
     }
 
-    fn oil(&mut self, oil: &OilTouch) {
+    fn oil(&mut self, oil: &OilForce) {
         self.on_ball.oil(oil);
         self.powers.oil(oil);
     }

@@ -3,7 +3,9 @@
 use nalgebra::Vector3;
 
 use super::contacts::{ContactSummary, Summary, visit};
-use crate::contact::{Aside, Motion, OilTouch, Sink, TiltedRing, Touch, Wrench, WrenchSum};
+use crate::contact::{
+    ContactForce, Motion, OilForce, PointForce, Sink, TiltedRing, Wrench, WrenchSum,
+};
 use crate::forces::load;
 use crate::model::{BodyId, Model, Race};
 
@@ -112,16 +114,16 @@ struct Both {
 }
 
 impl Sink for Both {
-    fn touch(&mut self, touch: &Touch) {
-        self.summary.touch(touch);
-        self.on_ball.touch(touch);
+    fn force(&mut self, force: &ContactForce) {
+        self.summary.force(force);
+        self.on_ball.force(force);
     }
 
-    fn aside(&mut self, force: &Aside) {
-        self.on_ball.aside(force);
+    fn point(&mut self, force: &PointForce) {
+        self.on_ball.point(force);
     }
 
-    fn oil(&mut self, oil: &OilTouch) {
+    fn oil(&mut self, oil: &OilForce) {
         self.on_ball.oil(oil);
     }
 }

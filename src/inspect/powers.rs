@@ -1,6 +1,6 @@
 //! Losses of contacts, by cause.
 
-use crate::contact::{OilTouch, Touch};
+use crate::contact::{ContactForce, OilForce};
 
 /// Powers that contacts take out \[W\].
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -15,13 +15,13 @@ pub(super) struct ContactPowers {
 
 impl ContactPowers {
     /// Adds those of a single force.
-    pub fn touch(&mut self, touch: &Touch) {
-        self.slip += touch.friction_power;
-        self.damping += (touch.normal - touch.elastic) * touch.approach;
+    pub fn force(&mut self, force: &ContactForce) {
+        self.slip += force.friction_power;
+        self.damping += (force.normal - force.elastic) * force.approach;
     }
 
     /// Adds those of the oil in a contact.
-    pub fn oil(&mut self, oil: &OilTouch) {
+    pub fn oil(&mut self, oil: &OilForce) {
         self.rolling += oil.power.iter().sum::<f64>();
     }
 }

@@ -76,7 +76,7 @@ mod tests {
                     let z = offset + length * (f64::from(k) / 1000.0 - 0.5) * 0.999;
                     let radius = pair.radius_at(z).unwrap();
                     let half = width / (2.0 * radius);
-                    let covers = |aside| defect.covers(z, radius, aside, &Motion::default());
+                    let covers = |offset| defect.covers(z, radius, offset, &Motion::default());
                     assert!(covers(0.999 * half) && !covers(1.001 * half), "{z}");
                     widest = widest.max(half);
                 }

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::{Between, Model, Race, Scales};
-use crate::contact::{BallSide, Motion, Pair, Rules, Sink, Touch, V2, Waves, ZoneSlices};
+use crate::contact::{BallSide, ContactForce, Motion, Pair, Rules, Sink, V2, Waves, ZoneSlices};
 
 /// Nodes against which others are measured.
 pub(super) const MANY: usize = 64;
@@ -168,9 +168,9 @@ struct NodeSum {
 }
 
 impl Sink for NodeSum {
-    fn touch(&mut self, touch: &Touch) {
-        self.total += touch.on_ball(touch.normal, 1.0).force;
-        self.normal += touch.normal;
+    fn force(&mut self, force: &ContactForce) {
+        self.total += force.on_ball(force.normal, 1.0).force;
+        self.normal += force.normal;
     }
 }
 

@@ -57,13 +57,13 @@ impl Model {
     }
 
     /// Gives all films the state that they have at a speed of the rings against each other \[rad/s\].
-    pub(crate) fn coat(&mut self, speed: f64) {
+    pub(crate) fn set_film_speed(&mut self, speed: f64) {
         for pair in self.rows.iter_mut().flat_map(|row| &mut row.pairs) {
             pair.change_each(|flank| flank.turn_film(speed));
         }
     }
 
-    /// The coat of a race through points is not built.
+    /// The film on a race through points is not built.
     fn check_profile(&self, (row, race): (usize, Race), lubricant: &Lubricant) -> Result<()> {
         let pair = &self.rows[row].pairs[race];
         if !lubricant.film || !pair.is_through_points() {
@@ -73,7 +73,7 @@ impl Model {
             format!("{}.film", self.scene.lubricant_path(row)),
             true,
             format!(
-                "false, since the {} race of rows[{row}] is a curve through points, on which the film cannot lie as a coat",
+                "false, since the {} race of rows[{row}] is a curve through points, on which no film can lie",
                 race.name()
             ),
         ))

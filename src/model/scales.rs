@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::{BodyId, Degree, Dof, Model, Race};
-use crate::contact::{BallSide, Motion, Pair, Sink, Touch, V2, Waves, centrifugal};
+use crate::contact::{BallSide, ContactForce, Motion, Pair, Sink, V2, Waves, centrifugal};
 use crate::scene::Row;
 
 /// Scales that tolerances and the step cap follow.
@@ -152,8 +152,8 @@ fn tilts(model: &Model, scales: &Scales) -> f64 {
 struct ElasticTotal(f64);
 
 impl Sink for ElasticTotal {
-    fn touch(&mut self, touch: &Touch) {
-        self.0 += touch.elastic * touch.share.0;
+    fn force(&mut self, force: &ContactForce) {
+        self.0 += force.elastic * force.share.0;
     }
 }
 

@@ -82,7 +82,7 @@ pub(super) fn handing_over<T: Send + 'static>(
 ) -> PyResult<T> {
     // A block is given when it is asked for, so that they do not pile up.
     let (sender, receiver) = mpsc::sync_channel(0);
-    let heeded = stop.clone();
+    let interrupt = stop.clone();
     let worker = thread::Builder::new()
         .name("ballrace".to_owned())
         .stack_size(STACK)
@@ -92,7 +92,7 @@ pub(super) fn handing_over<T: Send + 'static>(
             let mut progress = |share| {
                 // What nobody has time for just now is old at the next look.
                 let _ = sender.try_send(Message::Share(share));
-                if heeded.is_set() {
+                if interrupt.is_set() {
                     ControlFlow::Break(())
                 } else {
                     ControlFlow::Continue(())
@@ -102,7 +102,7 @@ pub(super) fn handing_over<T: Send + 'static>(
                 Ok(()) => ControlFlow::Continue(()),
                 Err(_) => ControlFlow::Break(()),
             };
-            heeded.heed(|| work(&mut progress, &mut sink))
+            interrupt.scope(|| work(&mut progress, &mut sink))
         })?;
     py.detach(move || wait(&receiver, callbacks))
         .inspect_err(|_| stop.set())?;

@@ -48,7 +48,7 @@ pub(super) fn campaign(
             })
         });
         let mut watch = |outcomes: Vec<Outcome>| {
-            match Python::attach(|py| pass_on(py, &done, outcomes, keep_signals)) {
+            match Python::attach(|py| deliver(py, &done, outcomes, keep_signals)) {
                 Ok(()) => ControlFlow::Continue(()),
                 // A second exception, of the last call, says nothing new.
                 Err(exception) => {
@@ -102,7 +102,7 @@ fn pull(py: Python<'_>, cases: &Py<pyo3::types::PyIterator>) -> PyResult<Option<
 }
 
 /// Checks for Ctrl-C, and passes the outcomes on.
-fn pass_on(
+fn deliver(
     py: Python<'_>,
     done: &Py<PyAny>,
     outcomes: Vec<Outcome>,

@@ -60,7 +60,7 @@ pub(crate) fn run<'m, O: Observer<Dynamics<'m>>>(
     let mut after = Memory::default();
     let solution = match dynamics.model().scene().solver.method {
         Method::DormandPrince => {
-            dynamics.coat(from.film_speed);
+            dynamics.set_film_speed(from.film_speed);
             by(
                 &DORMAND_PRINCE,
                 dynamics,
@@ -71,7 +71,7 @@ pub(crate) fn run<'m, O: Observer<Dynamics<'m>>>(
             )
         }
         Method::Verner => {
-            dynamics.coat(from.film_speed);
+            dynamics.set_film_speed(from.film_speed);
             by(&VERNER, dynamics, task, integrator, &mut after, observer)
         }
         Method::Adams => {
@@ -80,7 +80,7 @@ pub(crate) fn run<'m, O: Observer<Dynamics<'m>>>(
                 system
                     .remember(&from.matrix)
                     .map_err(|_| integrate::other_task(task.span.0))?;
-                system.dynamics.coat(from.film_speed);
+                system.dynamics.set_film_speed(from.film_speed);
             }
             let observer = &mut Through(observer);
             let solution = by(&Adams, &mut system, task, integrator, &mut after, observer)?;

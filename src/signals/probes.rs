@@ -3,7 +3,7 @@
 use super::Column;
 use super::filter::SampleKind;
 use crate::base::error::Result;
-use crate::dynamics::{Dynamics, contribution_names, contributions_coated};
+use crate::dynamics::{Dynamics, contribution_names, contributions_with_films};
 use crate::inspect::{self, Energy, Lubrication, MOMENTS};
 use crate::model::{BodyId, Dof, Model, Race};
 use crate::scene::{Component, ContactQuantity, Probe, RingName, Scene};
@@ -227,7 +227,7 @@ impl ProbeReader {
         accelerations: &[f64],
         values: &mut Vec<f64>,
     ) {
-        let model = dynamics.coated();
+        let model = dynamics.current_model();
         let layout = model.layout();
         match self {
             Self::Motion { body, components } => {
@@ -271,7 +271,7 @@ impl ProbeReader {
                 values.extend(inspect::lubrication(model, y, *row).values());
             }
             Self::Forces { body } => {
-                for (_, forces) in contributions_coated(model, t, y) {
+                for (_, forces) in contributions_with_films(model, t, y) {
                     values.extend(layout.of(&forces, *body));
                 }
             }

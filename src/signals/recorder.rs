@@ -296,7 +296,7 @@ impl<'s> Recorder<'s> {
     }
 
     fn list(&mut self, dynamics: &Dynamics<'_>, until: f64, interpolate: impl Fn(f64, &mut [f64])) {
-        let model = dynamics.coated();
+        let model = dynamics.current_model();
         while let Some(listing) = self.listings.pop_if(|listing| listing.time <= until) {
             interpolate(listing.time, &mut self.own.0);
             dynamics.expand(listing.time, &self.own.0, &mut self.y);

@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 use serde::Serialize;
 
-use crate::contact::{Pair, Sighted, SurfaceDefect, Toward, ZoneSlices};
+use crate::contact::{ContactDirection, DefectContact, Pair, SurfaceDefect, ZoneSlices};
 use crate::dynamics::Dynamics;
 use crate::integrate::DenseStep;
 use crate::model::{Model, Placed, Race, ball_defect, race_defect};
@@ -170,7 +170,7 @@ struct WatchedContact {
     ball: usize,
     race: Race,
     /// Angle between its direction and the defect's when last looked at \[rad\]; NaN before.
-    aside: f64,
+    offset: f64,
     pass: Pass,
 }
 
@@ -184,7 +184,7 @@ enum Pass {
 /// How a contact stands to a defect.
 struct DefectView {
     /// Angle between its direction and the defect's \[rad\].
-    aside: f64,
+    offset: f64,
     /// Rate of that angle \[rad/s\].
     rate: f64,
     /// Half of the angle over which it meets the defect \[rad\].
@@ -310,7 +310,7 @@ impl Watched {
         let contact = |(ball, race)| WatchedContact {
             ball,
             race,
-            aside: f64::NAN,
+            offset: f64::NAN,
             pass: Pass::None,
         };
         let (shape, origin) = compiled(model, defect);
@@ -343,21 +343,21 @@ impl Watched {
         let mut wait = f64::INFINITY;
         for i in 0..self.contacts.len() {
             let contact = &mut self.contacts[i];
-            let DefectView { aside, rate, half } = contact.look(model, y, &self.shape, self.on);
-            let before = std::mem::replace(&mut contact.aside, aside);
+            let DefectView { offset, rate, half } = contact.look(model, y, &self.shape, self.on);
+            let before = std::mem::replace(&mut contact.offset, offset);
             // A narrow one may lie between two steps.
-            let across = before.signum() != aside.signum() && (before - aside).abs() < PI;
-            if aside.abs() <= half {
-                self.meet(i, model, y, aside);
+            let across = before.signum() != offset.signum() && (before - offset).abs() < PI;
+            if offset.abs() <= half {
+                self.meet(i, model, y, offset);
             } else if across && before.abs() > half {
                 self.meet(i, model, y, 0.0);
             }
-            if aside.abs() > AWAY * half {
+            if offset.abs() > AWAY * half {
                 // One that has touched is counted; another only now, since until here it might have.
                 let pass = std::mem::replace(&mut self.contacts[i].pass, Pass::None);
                 self.passes += usize::from(pass == Pass::Untouched);
             }
-            let until = HALFWAY * (aside.abs() - half).max(0.0);
+            let until = HALFWAY * (offset.abs() - half).max(0.0);
             let over = (2.0 * half / LOOKS).min(OVER * rate.abs());
             wait = wait.min(until.max(over) / rate.abs());
         }
@@ -365,7 +365,7 @@ impl Watched {
     }
 
     /// A contact stands over the defect, this far from its middle \[rad\].
-    fn meet(&mut self, contact: usize, model: &Model, y: &[f64], aside: f64) {
+    fn meet(&mut self, contact: usize, model: &Model, y: &[f64], offset: f64) {
         let contact = &mut self.contacts[contact];
         if contact.pass == Pass::None {
             contact.pass = Pass::Untouched;
@@ -374,14 +374,14 @@ impl Watched {
             return;
         }
         let [ball, ring] = model.facing(y, contact.ball, contact.race);
-        let sighted = Sighted {
+        let at_defect = DefectContact {
             defect: &self.shape,
             on_ball: self.on == Surface::Ball,
-            aside,
+            offset,
             ball: &ball,
         };
         let side = &model.balls[contact.ball].side;
-        let found = self.pairs[contact.race].load_within(side, &ball, &ring, &sighted);
+        let found = self.pairs[contact.race].load_within(side, &ball, &ring, &at_defect);
         if found.within > 0.0 && contact.pass == Pass::Untouched {
             self.passes += 1;
             self.touched += 1;
@@ -402,18 +402,25 @@ impl WatchedContact {
         let [ball, ring] = model.facing(y, self.ball, self.race);
         let seen = ball.seen_from(&ring);
         let n = seen.centre / seen.centre.norm();
-        let (toward, omega) = match (on, self.race) {
-            (Surface::Ball, Race::Outer) => (Toward::ball(&ball, n, seen.direction()), ball.omega),
+        let (direction, omega) = match (on, self.race) {
+            (Surface::Ball, Race::Outer) => (
+                ContactDirection::ball(&ball, n, seen.direction()),
+                ball.omega,
+            ),
             // The inner race is met on the ball's inner side.
-            (Surface::Ball, Race::Inner) => {
-                (Toward::ball(&ball, -n, seen.direction() + PI), ball.omega)
-            }
-            _ => (Toward::race(ring.angle_of(seen.direction())), ring.omega),
+            (Surface::Ball, Race::Inner) => (
+                ContactDirection::ball(&ball, -n, seen.direction() + PI),
+                ball.omega,
+            ),
+            _ => (
+                ContactDirection::race(ring.angle_of(seen.direction())),
+                ring.omega,
+            ),
         };
         DefectView {
-            aside: toward.aside(shape),
-            rate: seen.orbit_speed() - toward.turning(shape, omega),
-            half: toward.half(shape),
+            offset: direction.offset(shape),
+            rate: seen.orbit_speed() - direction.turning(shape, omega),
+            half: direction.half(shape),
         }
     }
 }

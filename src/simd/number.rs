@@ -32,7 +32,7 @@ pub(crate) trait Number:
     fn mul_add<const FMA: bool>(self, b: Self, c: Self) -> Self;
 
     /// Selection: another number where this one is positive, 0 where it is not; where this one is NaN, the other stays.
-    fn gates(self, other: Self) -> Self;
+    fn positive_then(self, other: Self) -> Self;
 
     /// Comparison: whether it is above another; no where one of them is NaN.
     fn above(self, other: Self) -> Self::Decision;
@@ -52,7 +52,7 @@ pub(crate) trait Number:
     /// 0 in place of what is below; a NaN stays.
     #[inline(always)]
     fn or_zero(self) -> Self {
-        self.gates(self)
+        self.positive_then(self)
     }
 
     /// 1/√x of each x > 0 to 3.5 %, without a division or a root; no slope is known of it.
@@ -141,7 +141,7 @@ impl Number for f64 {
     }
 
     #[inline(always)]
-    fn gates(self, other: Self) -> Self {
+    fn positive_then(self, other: Self) -> Self {
         if self <= 0.0 { 0.0 } else { other }
     }
 
@@ -197,7 +197,7 @@ impl Number for Lanes {
     }
 
     #[inline(always)]
-    fn gates(self, other: Self) -> Self {
+    fn positive_then(self, other: Self) -> Self {
         self.zip(other, |a, b| if a <= 0.0 { 0.0 } else { b })
     }
 

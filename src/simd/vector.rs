@@ -271,7 +271,7 @@ impl<S: Simd> Number for Vector<S> {
     }
 
     #[inline(always)]
-    fn gates(self, other: Self) -> Self {
+    fn positive_then(self, other: Self) -> Self {
         let zero = self.same(0.0);
         let off = self
             .simd

@@ -64,7 +64,7 @@ pub(super) fn longer_links(model: &Model, row: &RowModel, mean: f64) -> Option<V
 
 /// Lets balls without load be where the time of a ball pass has them, and go round as much faster than the loaded ones as they are further
 /// apart.
-pub(super) fn pass_on(model: &Model, y: &mut [f64]) {
+pub(super) fn advance(model: &Model, y: &mut [f64]) {
     let Some(cage) = model.scene.cage.as_ref().filter(|cage| cage.play > 0.0) else {
         return;
     };
@@ -74,7 +74,7 @@ pub(super) fn pass_on(model: &Model, y: &mut [f64]) {
                 loose.way(model, y, (row, cage)) / (row.cage_distance / TAU * row.count as f64);
             for &j in &loose.balls {
                 turn(model, y, BodyId::ball(j), angle);
-                hasten(model, y, BodyId::ball(j), loose.apart / loose.close);
+                scale_speed(model, y, BodyId::ball(j), loose.apart / loose.close);
             }
         }
     }
@@ -161,7 +161,7 @@ fn turn(model: &Model, y: &mut [f64], ball: BodyId, angle: f64) {
 }
 
 /// Multiplies the speed of a ball, which rolls on.
-fn hasten(model: &Model, y: &mut [f64], ball: BodyId, factor: f64) {
+fn scale_speed(model: &Model, y: &mut [f64], ball: BodyId, factor: f64) {
     let layout = model.layout();
     let rolling = [Dof::X, Dof::Y, Dof::Theta].into_iter().chain(Dof::TURNS);
     for dof in rolling.filter(|dof| layout.has(ball, *dof)) {

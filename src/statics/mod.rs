@@ -217,7 +217,7 @@ pub(crate) fn in_motion(model: &Model, control: RaceControl, spacing: Spacing) -
         }
     }
     if spacing == Spacing::Fallen {
-        fallen::pass_on(model, &mut y);
+        fallen::advance(model, &mut y);
     }
     Ok(y)
 }

@@ -16,7 +16,7 @@
 use nalgebra::{SMatrix, SVector, Vector3};
 
 use super::rolling::set_turning;
-use crate::contact::{OilTouch, Sink, Touch, Wrench, cross};
+use crate::contact::{ContactForce, OilForce, Sink, Wrench, cross};
 use crate::forces::drag;
 use crate::inspect;
 use crate::model::{BodyId, Dof, Layout, Model, Race, RowModel};
@@ -59,11 +59,11 @@ pub(super) fn friction(model: &Model, y: &[f64], j: usize) -> [Wrench; 2] {
 struct Rubbed(Wrench);
 
 impl Sink for Rubbed {
-    fn touch(&mut self, touch: &Touch) {
-        self.0.add(&touch.on_ball(0.0, 1.0));
+    fn force(&mut self, force: &ContactForce) {
+        self.0.add(&force.on_ball(0.0, 1.0));
     }
 
-    fn oil(&mut self, oil: &OilTouch) {
+    fn oil(&mut self, oil: &OilForce) {
         self.0.add(&oil.on_ball());
     }
 }

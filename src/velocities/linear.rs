@@ -205,7 +205,7 @@ impl<const N: usize> Corrects for BodyMatrix<N> {
         if words.loads()
             && let Some(of) = self.made.take().filter(|of| of.y.len() == dynamics.dim())
         {
-            dynamics.coat(of.film_speed);
+            dynamics.set_film_speed(of.film_speed);
             self.renew(dynamics, of.t, &of.y, of.by);
             self.made = Some(of);
         }

@@ -54,9 +54,9 @@ impl<const N: usize> ContactMatrix<N> {
 
     /// Finds the nodes of all contacts at a state of all bodies, as they are seen there.
     pub fn find_elements(&mut self, dynamics: &Dynamics<'_>, views: &[View<'_>; 2]) {
-        let model = dynamics.coated();
+        let model = dynamics.current_model();
         if model.has_films_in_motion() {
-            self.search.coat(model);
+            self.search.update_films(model);
         }
         self.search.find(None, model, views);
         self.gather(model);
@@ -108,7 +108,7 @@ impl<const N: usize> ContactMatrix<N> {
 
     /// Finds how the contacts answer to the velocities that are seen, and to places that move by so much with these \[s\].
     pub fn find_slopes(&mut self, dynamics: &Dynamics<'_>, views: &[View<'_>; 2], reach: f64) {
-        let model = dynamics.coated();
+        let model = dynamics.current_model();
         let find = |batch: &mut HeldBalls<N>| batch.find_slopes(model, views, reach);
         let batches = &mut self.batches[..self.active];
         pool::each(dynamics.pool(), batches, find);

@@ -4,7 +4,7 @@ use ballrace::compile;
 use ballrace::contact::Shape;
 use ballrace::contact::hertz::Hertz;
 use ballrace::contact::{
-    BallSide, Elastic, Law, Motion, Pair, Rules, Sink, Torus, Touch, Waves, ZoneSlices,
+    BallSide, ContactForce, Elastic, Law, Motion, Pair, Rules, Sink, Torus, Waves, ZoneSlices,
 };
 use ballrace::inspect;
 use ballrace::scene::{Component, Friction, NormalLaw, Probe, presets};
@@ -17,9 +17,9 @@ struct Total {
 }
 
 impl Sink for Total {
-    fn touch(&mut self, touch: &Touch) {
-        self.radial += touch.normal * touch.share.0;
-        self.axial += touch.normal * touch.share.1;
+    fn force(&mut self, force: &ContactForce) {
+        self.radial += force.normal * force.share.0;
+        self.axial += force.normal * force.share.1;
     }
 }
 

@@ -1,6 +1,6 @@
 //! Analytic: what is conservative conserves. Without damping, friction and drive the energy stays — kinetic, contacts,
 //! supports, gravity, less the work of the loads — over both normal laws, with defects on each body, with waves, and
-//! with two rows that are not alike: to 1e-5 of the swing of the kinetic energy.
+//! with two rows that are not alike: to 1e-5 of the range of the kinetic energy.
 
 use crate::common;
 use std::f64::consts::FRAC_PI_2;
@@ -246,7 +246,7 @@ fn driven(scene: &Scene, out: &Signals) -> Vec<f64> {
     std::iter::once(0.0).chain(steps).collect()
 }
 
-/// Largest change of the energy less the work of the loads, over the swing of the kinetic energy.
+/// Largest change of the energy less the work of the loads, over the range of the kinetic energy.
 pub(crate) fn drift(scene: &Scene, duration: f64) -> f64 {
     let out = run(
         scene,
@@ -273,8 +273,8 @@ pub(crate) fn drift(scene: &Scene, duration: f64) -> f64 {
     let (total, kinetic) = (of("e.total"), of("e.kinetic"));
     let kept = |i: usize| total[i] - work(i);
     let most = |values: &mut dyn Iterator<Item = f64>| values.fold(f64::MIN, f64::max);
-    let swing = most(&mut kinetic.iter().copied()) + most(&mut kinetic.iter().map(|e| -e));
-    most(&mut (0..total.len()).map(|i| (kept(i) - kept(0)).abs())) / swing
+    let range = most(&mut kinetic.iter().copied()) + most(&mut kinetic.iter().map(|e| -e));
+    most(&mut (0..total.len()).map(|i| (kept(i) - kept(0)).abs())) / range
 }
 
 #[test]
@@ -313,7 +313,7 @@ fn steep_contacts_under_high_pressure_keep_energy() {
     }
 }
 
-/// Films that neither damp nor rub are a coat: a potential of its own, on rings that the drive holds at their speed.
+/// Films without damping and friction are layers: a potential of its own, on rings that the drive holds at their speed.
 #[test]
 fn a_film_keeps_energy() {
     let mut failed = Vec::new();

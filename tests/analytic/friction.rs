@@ -4,8 +4,8 @@ use crate::common;
 use ballrace::contact::hertz::Hertz;
 use ballrace::contact::iso16281::Iso16281;
 use ballrace::contact::{
-    BallSide, Damping, Elastic, Law, Motion, Pair, Rules, Shape, Sink, SurfaceDefect, Torus, Touch,
-    Traction, Waves, ZoneSlices,
+    BallSide, ContactForce, Damping, Elastic, Law, Motion, Pair, Rules, Shape, Sink, SurfaceDefect,
+    Torus, Traction, Waves, ZoneSlices,
 };
 use ballrace::dynamics::contributions;
 use ballrace::scene::{Defect, Friction, Material, Surface};
@@ -35,12 +35,12 @@ struct Sum {
 }
 
 impl Sink for Sum {
-    fn touch(&mut self, touch: &Touch) {
-        for (sum, part) in self.friction.iter_mut().zip(touch.friction_on_ball()) {
+    fn force(&mut self, force: &ContactForce) {
+        for (sum, part) in self.friction.iter_mut().zip(force.friction_on_ball()) {
             *sum += part;
         }
-        self.normal += touch.normal;
-        self.power += touch.friction_power;
+        self.normal += force.normal;
+        self.power += force.friction_power;
     }
 }
 

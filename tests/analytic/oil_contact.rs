@@ -284,7 +284,7 @@ fn contacts_begin_softly() {
         let model = compile(&scene).unwrap();
         let calm = start(&model, &Start::Rolling).unwrap();
         let half = calm.len() / 2;
-        // The ball is the third body, at angle 0; the groove's bottom is 50 µm away but for the coat.
+        // The ball is the third body, at angle 0; the groove's bottom is 50 µm away but for the film.
         let forces = |x: f64| {
             let mut y = calm.clone();
             y[8] += x;

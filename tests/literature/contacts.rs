@@ -20,7 +20,8 @@ use ballrace::contact::Shape;
 use ballrace::contact::hertz::Hertz;
 use ballrace::contact::iso16281::Iso16281;
 use ballrace::contact::{
-    BallSide, Elastic, Law, Motion, Pair, Sink, SurfaceDefect, Torus, Touch, Waves, ZoneSlices,
+    BallSide, ContactForce, Elastic, Law, Motion, Pair, Sink, SurfaceDefect, Torus, Waves,
+    ZoneSlices,
 };
 use ballrace::scene::{Defect, Material, Surface};
 use common::meets;
@@ -185,8 +186,8 @@ fn at(x: f64) -> Motion {
 struct Load(f64);
 
 impl Sink for Load {
-    fn touch(&mut self, touch: &Touch) {
-        self.0 += touch.elastic * touch.share.0;
+    fn force(&mut self, force: &ContactForce) {
+        self.0 += force.elastic * force.share.0;
     }
 }
 

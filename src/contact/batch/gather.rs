@@ -3,7 +3,7 @@
 // Everything here must be compiled for the instructions of its caller.
 #![allow(clippy::inline_always)]
 
-use crate::contact::damage::Sight;
+use crate::contact::damage::AngularReach;
 use crate::contact::profile::{HeightTable, Raise, Section};
 use crate::contact::{FilmNumbers, Motion, Pair};
 use crate::simd::{LANES, Lanes, Mask, direction};
@@ -206,10 +206,10 @@ impl Pair {
         let mut defective = Mask::default();
         if !self.defects.is_empty() && touching.any() {
             for defect in &self.defects {
-                let Sight {
+                let AngularReach {
                     middle: [cos, sin],
                     bound,
-                } = defect.sight(ring.theta);
+                } = defect.angular_reach(ring.theta);
                 defective = defective.or((x * cos + y * sin).above(d * bound));
             }
         }

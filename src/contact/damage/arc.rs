@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::SurfaceDefect;
-use super::toward::Toward;
+use super::direction::ContactDirection;
 use crate::contact::V2;
 
 /// How rotations of a ball move what is not its own along a slice: only about the ring's axis.
@@ -50,13 +50,13 @@ pub(super) struct Rim {
     /// dh/dζ \[rad/m\].
     pub slope: f64,
     /// Swing of the arc's middle and of its half-width, across the ring's axis.
-    pub swing: [V2; 2],
+    pub turn_axis: [V2; 2],
 }
 
 impl Rim {
     /// Swing of the upper end (side 1), of the lower (−1), or of what lies between at a share of h.
-    fn swing(&self, side: f64) -> Vector3<f64> {
-        let across = self.swing[0] + self.swing[1] * side;
+    fn turn_axis(&self, side: f64) -> Vector3<f64> {
+        let across = self.turn_axis[0] + self.turn_axis[1] * side;
         Vector3::new(across.x, across.y, 1.0)
     }
 }
@@ -73,10 +73,10 @@ impl Edge {
     }
 
     /// Change of the edge's angle by rotations of the ball that has it.
-    pub(super) fn swing(&self) -> Vector3<f64> {
+    pub(super) fn turn_axis(&self) -> Vector3<f64> {
         match &self.course {
             EdgeCourse::Width { .. } => Vector3::z(),
-            EdgeCourse::Rim(rim) => rim.swing(self.side),
+            EdgeCourse::Rim(rim) => rim.turn_axis(self.side),
         }
     }
 }
@@ -121,11 +121,18 @@ impl Arc {
 }
 
 /// The absent arc around a direction at an axial place; none where the surface is whole.
-pub fn absent(defects: &[SurfaceDefect], at: &Station, toward: &Toward) -> Option<Arc> {
+pub fn absent(
+    defects: &[SurfaceDefect],
+    at: &Station,
+    direction: &ContactDirection,
+) -> Option<Arc> {
     let mut around: Option<Arc> = None;
     loop {
         let mut grows = false;
-        for arc in defects.iter().filter_map(|defect| defect.arc(at, toward)) {
+        for arc in defects
+            .iter()
+            .filter_map(|defect| defect.arc(at, direction))
+        {
             let (low, high) = around.map_or((0.0, 0.0), |a| (a.low.angle, a.high.angle));
             if arc.low.angle > high || arc.high.angle < low {
                 continue;
@@ -150,7 +157,7 @@ pub fn absent(defects: &[SurfaceDefect], at: &Station, toward: &Toward) -> Optio
 pub fn floors<'a>(
     defects: &'a [SurfaceDefect],
     at: Station,
-    toward: Toward<'a>,
+    direction: ContactDirection<'a>,
     whole: &Arc,
 ) -> impl Iterator<Item = (Edge, f64)> + use<'a> {
     let (low, high) = (whole.low.angle, whole.high.angle);
@@ -159,7 +166,7 @@ pub fn floors<'a>(
         .filter_map(|defect| Some((defect, defect.floor()?)));
     floored.flat_map(move |(defect, (depth, count))| {
         let arc = defect
-            .arc(&at, &toward)
+            .arc(&at, &direction)
             .filter(|arc| arc.low.angle >= low && arc.high.angle <= high);
         arc.into_iter().flat_map(move |arc| {
             (1..=count).map(move |k| {

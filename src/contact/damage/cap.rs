@@ -10,14 +10,14 @@
 //!
 //! Fault circles stand at its ends ψ_j = ψ_e ± h as at those of any other arc. What differs is that any rotation of the ball
 //! moves them, and not only one about the ring's axis: an angular velocity w turns e, and so ψ_j by w · (e × ∂ψ_j/∂e). That
-//! vector is the edge's **swing**,
+//! vector is the edge's **turn axis**,
 //!
 //! ```text
 //! e × ∂ψ_e/∂e = ẑ − (e_z/e_∥) ê,     e × ∂h/∂e = −(ζ/ρ − C e_z/e_∥)/√(1 − C²) ẑ × ê
 //! ```
 //!
 //! and ẑ for whatever only turns about the ring's axis. With ∂s/∂ψ_j = arm × n_e, a normal force N n_e at the edge puts the
-//! moment −N ∂s/∂ψ_j · swing on the ball (see [`Touch`](crate::contact::Touch)).
+//! moment −N ∂s/∂ψ_j · (turn axis) on the ball (see [`ContactForce`](crate::contact::ContactForce)).
 //!
 //! No force jumps at the rim. At C = −1 one would: there a cap holds a pole of the ball, and its rim passes that on the far
 //! side, which the width that scenes allow keeps beyond 61 degrees, where no contact runs.
@@ -27,8 +27,8 @@ use std::f64::consts::PI;
 use nalgebra::Vector3;
 
 use super::arc::{Arc, EdgeCourse, Rim, Station};
+use super::direction::ContactDirection;
 use super::patch::CircleEdges;
-use super::toward::Toward;
 use super::{Acts, AnyDamage, Bed, Cuts, DamageKind, MARGIN, SurfaceDefect};
 use crate::contact::{V2, turned};
 
@@ -64,10 +64,15 @@ impl DamageKind for Cap {
         e.map_or(of.reach / MARGIN, |e| self.widest(e))
     }
 
-    fn is_near(&self, of: &SurfaceDefect, toward: &Toward, e: Option<&Vector3<f64>>) -> bool {
+    fn is_near(
+        &self,
+        of: &SurfaceDefect,
+        direction: &ContactDirection,
+        e: Option<&Vector3<f64>>,
+    ) -> bool {
         match e {
-            None => toward.aside(of).abs() <= of.reach,
-            Some(e) => self.in_reach(e, toward.n),
+            None => direction.offset(of).abs() <= of.reach,
+            Some(e) => self.in_reach(e, direction.n),
         }
     }
 
@@ -92,7 +97,7 @@ impl Cuts for Cap {
         middle: f64,
         e: Option<&Vector3<f64>>,
     ) -> Option<Arc> {
-        let radius = self.edges.radius + of.coat;
+        let radius = self.edges.radius + of.film_layer;
         match self.lost(e?, at.z, at.radius) {
             Lost::Nothing => None,
             Lost::Arc(rim) => Some(Arc::about(middle, rim.half, radius, EdgeCourse::Rim(rim))),
@@ -182,7 +187,7 @@ fn rim(c: f64, e: &Vector3<f64>, over: f64, rho: f64) -> Rim {
     Rim {
         half: c.acos(),
         slope: by_c * (c * over - rise) / rho,
-        swing: [
+        turn_axis: [
             towards * -rise,
             turned(towards) * (by_c * (over - c * rise)),
         ],

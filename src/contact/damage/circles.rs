@@ -2,8 +2,8 @@
 
 use super::arc::{Edge, WITH_RING_AXIS};
 use super::depth::Depth;
-use super::elements::{FeatureShape, RingElement, WaveSlope};
 use super::facing::{Facing, Node};
+use super::surfaces::{RingSurface, SurfaceKind, WaveSlope};
 use crate::contact::profile::Raise;
 use crate::contact::{V2, turned};
 
@@ -14,7 +14,7 @@ impl Facing<'_> {
         node: &Node,
         edge: &Edge,
         depth: f64,
-    ) -> RingElement<D> {
+    ) -> RingSurface<D> {
         let raise = self.race_side.waves.raise(self.on_ring + edge.angle);
         let sigma = self.race.sigma;
         let reach = node.torus_radius + raise.height + sigma * (edge.radius + depth);
@@ -31,8 +31,8 @@ impl Facing<'_> {
         } else {
             V2::zeros()
         };
-        RingElement {
-            shape: FeatureShape::Circle {
+        RingSurface {
+            shape: SurfaceKind::Circle {
                 from_ring,
                 radius: edge.radius,
                 slope,
@@ -46,32 +46,32 @@ impl Facing<'_> {
             drops: (D::new(0.0, 0.0, 0.0), D::NEVER),
             arm_ring: from_ring - n_e * edge.radius,
             wave_slope: WaveSlope::default(),
-            swing: WITH_RING_AXIS,
+            turn_axis: WITH_RING_AXIS,
         }
     }
 
-    /// A fault circle of the ball against a feature of the ring, and tan α from the gradient of its gap.
+    /// A fault circle of the ball against a surface of the ring, and tan α from the gradient of its gap.
     pub(super) fn ball_circle<D: Depth>(
         &self,
         node: &Node,
-        feature: &RingElement<D>,
+        surface: &RingSurface<D>,
         edge: &Edge,
         depth: f64,
-    ) -> (RingElement<D>, f64) {
-        let u = rotated(feature.n_e, edge.angle);
+    ) -> (RingSurface<D>, f64) {
+        let u = rotated(surface.n_e, edge.angle);
         let lever = node.rho - edge.radius - depth;
         let arm = u * lever;
         // ∂c/∂ζ of c = (ρ − R_f − depth) u(ψ), ψ = φ ± w/(2ρ) or ψ_e ± h, ρ' = −ζ/ρ.
         let rho_slope = -node.zeta / node.rho;
         let turn = edge.turn(node.rho, rho_slope);
         let slope = u * rho_slope + turned(u) * (lever * turn);
-        let mut met = match feature.shape {
-            FeatureShape::Race => self.circle_on_race(node, feature, edge, arm),
-            FeatureShape::Circle { .. } => self.circle_on_circle(feature, edge, arm),
+        let mut met = match surface.shape {
+            SurfaceKind::Race => self.circle_on_race(node, surface, edge, arm),
+            SurfaceKind::Circle { .. } => self.circle_on_circle(surface, edge, arm),
         };
         let tan = met.wave_slope.force.dot(&slope) - met.n_e.dot(&slope);
         met.s = met.s.along_ball(-tan);
-        met.swing = edge.swing();
+        met.turn_axis = edge.turn_axis();
         (met, tan)
     }
 
@@ -79,10 +79,10 @@ impl Facing<'_> {
     fn circle_on_race<D: Depth>(
         &self,
         node: &Node,
-        feature: &RingElement<D>,
+        surface: &RingSurface<D>,
         edge: &Edge,
         arm: V2,
-    ) -> RingElement<D> {
+    ) -> RingSurface<D> {
         let from_ring = self.apart + arm;
         let distance = from_ring.norm();
         let m = from_ring / distance;
@@ -94,7 +94,7 @@ impl Facing<'_> {
         };
         let radius = node.torus_radius + raise.height;
         let sigma = self.race.sigma;
-        RingElement {
+        RingSurface {
             n_e: m * sigma,
             s: D::new(
                 sigma * (distance - radius) + edge.radius,
@@ -103,33 +103,33 @@ impl Facing<'_> {
             ),
             arm_ring: m * radius,
             wave_slope: self.wave_slope(m, distance, raise.slope, arm),
-            ..*feature
+            ..*surface
         }
     }
 
     /// The same against a fault circle of the ring.
     fn circle_on_circle<D: Depth>(
         &self,
-        feature: &RingElement<D>,
+        surface: &RingSurface<D>,
         edge: &Edge,
         arm: V2,
-    ) -> RingElement<D> {
-        let FeatureShape::Circle {
+    ) -> RingSurface<D> {
+        let SurfaceKind::Circle {
             from_ring: other,
             radius,
             slope,
-        } = feature.shape
+        } = surface.shape
         else {
-            return *feature;
+            return *surface;
         };
         let away = other - self.apart - arm;
         let distance = away.norm();
         let n_e = away / distance;
-        RingElement {
+        RingSurface {
             n_e,
             s: D::new(radius + edge.radius - distance, -n_e.dot(&slope), 0.0),
             arm_ring: other - n_e * radius,
-            ..*feature
+            ..*surface
         }
     }
 }

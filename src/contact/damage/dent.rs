@@ -34,9 +34,9 @@ use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::Vector3;
 
+use super::direction::ContactDirection;
 use super::hole::{EnergyAt, HALF, Hole, PittedContact, Released};
 use super::small::{SmallBed, half_axes};
-use super::toward::Toward;
 use super::{Acts, AnyDamage, Bed, DamageKind, Releases, SurfaceDefect};
 use crate::contact::dual::Dual;
 use crate::scene::RIM;
@@ -227,8 +227,13 @@ impl DamageKind for Dent {
         self.bed.span
     }
 
-    fn is_near(&self, of: &SurfaceDefect, toward: &Toward, _e: Option<&Vector3<f64>>) -> bool {
-        toward.aside(of).abs() <= of.reach
+    fn is_near(
+        &self,
+        of: &SurfaceDefect,
+        direction: &ContactDirection,
+        _e: Option<&Vector3<f64>>,
+    ) -> bool {
+        direction.offset(of).abs() <= of.reach
     }
 
     fn widened(&mut self, half_width: f64) -> Option<f64> {

@@ -36,9 +36,9 @@
 //! terms, with their error.
 
 use super::depth::Sloped;
-use super::elements::ElementPair;
 use super::facing::{Facing, Node};
-use crate::contact::{Aside, Sink, V2, turned};
+use super::surfaces::SurfacePair;
+use crate::contact::{PointForce, Sink, V2, turned};
 
 /// The body to which an axial end of a defect belongs.
 #[derive(Clone, Copy, PartialEq)]
@@ -55,7 +55,7 @@ impl Facing<'_> {
     pub(in crate::contact) fn tilt<S: Sink + ?Sized>(
         &self,
         node: &Node,
-        met: &ElementPair<Sloped>,
+        met: &SurfacePair<Sloped>,
         sink: &mut S,
     ) {
         let Some((cos, sin)) = self.common() else {
@@ -75,13 +75,13 @@ impl Facing<'_> {
                 shifting -= force * cos * by_z;
             }
         }
-        sink.aside(&self.turning((cos, sin), turning, shifting));
+        sink.point(&self.turning((cos, sin), turning, shifting));
     }
 
     /// Force that the slope of the ball's texture makes of an elastic force.
-    pub(in crate::contact) fn texture_force(&self, elastic: f64) -> Aside {
+    pub(in crate::contact) fn texture_force(&self, elastic: f64) -> PointForce {
         let plane = turned(self.n) * (-elastic * self.swell.slope / self.distance);
-        Aside::at(-self.apart, plane, 0.0)
+        PointForce::at(-self.apart, plane, 0.0)
     }
 
     /// Force that the axial end of a defect at a node's place adds.
@@ -95,7 +95,7 @@ impl Facing<'_> {
             return;
         };
         let zeta = node.zeta;
-        let aside = match (self.common(), owner) {
+        let force = match (self.common(), owner) {
             (Some((cos, sin)), _) => {
                 let by_angle = (zeta * sin - self.radius) / (cos * cos);
                 let by_z = if owner == Owner::Ring {
@@ -108,7 +108,7 @@ impl Facing<'_> {
             (None, Owner::Ball) => self.central(0.0, self.unloading.share * jump),
             (None, Owner::Ring) => return,
         };
-        sink.aside(&aside);
+        sink.point(&force);
     }
 
     /// Whether ends of defects on the ring matter: not to the ISO law.
@@ -128,7 +128,7 @@ impl Facing<'_> {
     fn energy(&self, node: &Node) -> f64 {
         let share = self.drop_share();
         let mut sum = 0.0;
-        self.element_pairs(node, &mut |met: &ElementPair<f64>| {
+        self.surface_pairs(node, &mut |met: &SurfacePair<f64>| {
             for (sign, drop) in met.terms() {
                 if drop < f64::INFINITY {
                     let depth = node.depth - share * drop;
@@ -140,22 +140,22 @@ impl Facing<'_> {
     }
 
     /// Force from derivatives of the energy by α' and, at fixed α', by dz.
-    fn turning(&self, (cos, sin): (f64, f64), by_angle: f64, by_z: f64) -> Aside {
+    fn turning(&self, (cos, sin): (f64, f64), by_angle: f64, by_z: f64) -> PointForce {
         let (share, per_angle) = (self.unloading.share, by_angle / self.section.l);
         self.central(-share * per_angle * sin, share * (per_angle * cos + by_z))
     }
 
     /// Force from the derivative by α' of what pits release.
-    pub(super) fn turning_by(&self, by_angle: f64) -> Aside {
+    pub(super) fn turning_by(&self, by_angle: f64) -> PointForce {
         let ((cos, sin), per_angle) = (self.section.normal, by_angle / self.section.l);
         self.central(-per_angle * sin, per_angle * cos)
     }
 
     /// Force from derivatives of the energy by e and dz.
-    fn central(&self, by_e: f64, by_z: f64) -> Aside {
+    fn central(&self, by_e: f64, by_z: f64) -> PointForce {
         let sigma = self.race.sigma;
         let across = sigma * by_e * self.raise.slope / self.distance;
         let plane = self.n * (-sigma * by_e) + turned(self.n) * across;
-        Aside::at(V2::zeros(), plane, -by_z)
+        PointForce::at(V2::zeros(), plane, -by_z)
     }
 }

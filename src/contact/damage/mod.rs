@@ -10,7 +10,7 @@ mod cap;
 mod circles;
 mod dent;
 mod depth;
-mod elements;
+mod direction;
 mod facing;
 mod gradient;
 mod hole;
@@ -18,7 +18,7 @@ mod patch;
 mod pit;
 mod released;
 mod small;
-mod toward;
+mod surfaces;
 
 use std::f64::consts::PI;
 
@@ -37,15 +37,15 @@ use pit::Pit;
 use small::SmallBed;
 
 pub(super) use depth::{Depth, Sloped};
-pub(super) use elements::{ElementPair, RingElement, WaveSlope};
 pub(super) use facing::{Facing, Node, SurfaceSide};
 pub(super) use gradient::{BESIDE, Owner};
 pub(crate) use hole::PittedContact;
 pub(super) use hole::Unloading;
 pub(super) use released::Moving;
 pub(crate) use released::{MOST_AT_ONCE, met_at_once};
+pub(super) use surfaces::{RingSurface, SurfacePair, WaveSlope};
 
-pub(crate) use toward::Toward;
+pub(crate) use direction::ContactDirection;
 
 /// Factor on the largest half-angle within which a defect is looked for: a race's radius changes by films, by some ten-thousandths.
 const MARGIN: f64 = 1.01;
@@ -58,7 +58,7 @@ pub struct SurfaceDefect {
     /// Axial place of the middle, in the ring's frame or from the ball's centre \[m\].
     middle: f64,
     /// Thickness of the oil film on fault circles \[m\].
-    pub(super) coat: f64,
+    pub(super) film_layer: f64,
     /// The largest half-angle, and a little more: a contact further away never meets the defect \[rad\]. Of a cap while its ball is as at
     /// the start.
     pub(crate) reach: f64,
@@ -167,7 +167,12 @@ trait DamageKind {
     fn half(&self, of: &SurfaceDefect, e: Option<&Vector3<f64>>) -> f64;
 
     /// Whether a contact in this direction may meet it.
-    fn is_near(&self, of: &SurfaceDefect, toward: &Toward, e: Option<&Vector3<f64>>) -> bool;
+    fn is_near(
+        &self,
+        of: &SurfaceDefect,
+        direction: &ContactDirection,
+        e: Option<&Vector3<f64>>,
+    ) -> bool;
 
     /// Takes over the half-width of contacts under a typical load \[m\]; how far it is looked for then \[rad\], where that changes.
     fn widened(&mut self, half_width: f64) -> Option<f64>;
@@ -222,7 +227,7 @@ trait Releases {
 }
 
 /// Directions in the frame of the scene: those whose component along the middle, over their length, is above a bound.
-pub(crate) struct Sight {
+pub(crate) struct AngularReach {
     pub middle: [f64; 2],
     pub bound: f64,
 }
@@ -240,7 +245,7 @@ impl SurfaceDefect {
         Self {
             angle: defect.angle,
             middle: bed.middle,
-            coat: 0.0,
+            film_layer: 0.0,
             reach: kind.get().reach(defect.angle, bed),
             kind,
         }
@@ -268,9 +273,9 @@ impl SurfaceDefect {
     }
 
     /// The directions of contacts that may meet the defect, while its body is turned by an angle.
-    pub(crate) fn sight(&self, turned: f64) -> Sight {
+    pub(crate) fn angular_reach(&self, turned: f64) -> AngularReach {
         let (sin, cos) = (self.angle + turned).sin_cos();
-        Sight {
+        AngularReach {
             middle: [cos, sin],
             // A little more than the reach, for rounding.
             bound: self.reach.min(PI).cos() - 1e-12,
@@ -278,9 +283,9 @@ impl SurfaceDefect {
     }
 
     /// Whether a contact in this direction may meet the defect.
-    pub(crate) fn in_reach(&self, toward: &Toward) -> bool {
-        let e = toward.pole(self);
-        self.kind.get().is_near(self, toward, e.as_ref())
+    pub(crate) fn in_reach(&self, direction: &ContactDirection) -> bool {
+        let e = direction.pole(self);
+        self.kind.get().is_near(self, direction, e.as_ref())
     }
 
     /// Whether the surface is absent over arcs, and not whole.
@@ -321,10 +326,10 @@ impl SurfaceDefect {
 
     /// Whether the surface is absent at an axial place where it has this radius, or a contact met there, in a direction this far from the
     /// defect's own \[rad\]; `ball` is the orientation of the ball that has it.
-    pub(crate) fn covers(&self, z: f64, radius: f64, aside: f64, ball: &Motion) -> bool {
+    pub(crate) fn covers(&self, z: f64, radius: f64, offset: f64, ball: &Motion) -> bool {
         let cuts = match self.kind.get().acts() {
             Acts::Cuts(cuts) => cuts,
-            Acts::Releases(small) => return aside.abs() <= small.bed().span,
+            Acts::Releases(small) => return offset.abs() <= small.bed().span,
         };
         let at = Station {
             z,
@@ -333,20 +338,20 @@ impl SurfaceDefect {
         };
         let e = self.pole(ball);
         let middle = match e {
-            None => wrapped(self.angle - (self.angle + aside)),
-            Some(_) => -aside,
+            None => wrapped(self.angle - (self.angle + offset)),
+            Some(_) => -offset,
         };
         let arc = cuts.arc(self, &at, middle, e.as_ref());
         arc.is_some_and(|arc| arc.low.angle <= 0.0 && arc.high.angle >= 0.0)
     }
 
     /// The arc at an axial place, seen from a direction.
-    fn arc(&self, at: &Station, toward: &Toward) -> Option<Arc> {
+    fn arc(&self, at: &Station, direction: &ContactDirection) -> Option<Arc> {
         let cuts = self.as_cuts()?;
-        let e = toward.pole(self);
+        let e = direction.pole(self);
         let middle = match &e {
-            None => wrapped(self.angle - toward.angle),
-            Some(e) => toward.aside_of(e),
+            None => wrapped(self.angle - direction.angle),
+            Some(e) => direction.angle_to(e),
         };
         cuts.arc(self, at, middle, e.as_ref())
     }

@@ -6,7 +6,7 @@
 use nalgebra::Vector3;
 
 use super::arc::{Arc, EdgeCourse, Station};
-use super::toward::Toward;
+use super::direction::ContactDirection;
 use super::{Acts, AnyDamage, Bed, Cuts, DamageKind, MARGIN, SurfaceDefect};
 use crate::contact::V2;
 use crate::scene::{Floor, Width};
@@ -60,8 +60,13 @@ impl DamageKind for Patch {
         of.reach / MARGIN
     }
 
-    fn is_near(&self, of: &SurfaceDefect, toward: &Toward, _e: Option<&Vector3<f64>>) -> bool {
-        toward.aside(of).abs() <= of.reach
+    fn is_near(
+        &self,
+        of: &SurfaceDefect,
+        direction: &ContactDirection,
+        _e: Option<&Vector3<f64>>,
+    ) -> bool {
+        direction.offset(of).abs() <= of.reach
     }
 
     fn widened(&mut self, _half_width: f64) -> Option<f64> {
@@ -96,7 +101,7 @@ impl Cuts for Patch {
         (width > 0.0).then(|| {
             let course = EdgeCourse::Width { width, slope };
             let half = width / (2.0 * at.radius);
-            Arc::about(middle, half, self.edges.radius + of.coat, course)
+            Arc::about(middle, half, self.edges.radius + of.film_layer, course)
         })
     }
 

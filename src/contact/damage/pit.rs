@@ -2,9 +2,9 @@
 
 use nalgebra::Vector3;
 
+use super::direction::ContactDirection;
 use super::hole::{Hole, Released};
 use super::small::{SmallBed, half_axes};
-use super::toward::Toward;
 use super::{Acts, AnyDamage, Bed, DamageKind, Releases, SurfaceDefect};
 
 /// A pit, compiled.
@@ -38,8 +38,13 @@ impl DamageKind for Pit {
         self.bed.span
     }
 
-    fn is_near(&self, of: &SurfaceDefect, toward: &Toward, _e: Option<&Vector3<f64>>) -> bool {
-        toward.aside(of).abs() <= of.reach
+    fn is_near(
+        &self,
+        of: &SurfaceDefect,
+        direction: &ContactDirection,
+        _e: Option<&Vector3<f64>>,
+    ) -> bool {
+        direction.offset(of).abs() <= of.reach
     }
 
     fn widened(&mut self, half_width: f64) -> Option<f64> {

@@ -17,7 +17,7 @@ use nalgebra::Vector3;
 use super::facing::Facing;
 use super::hole::{Released, Unloading};
 use super::{Releases, SurfaceDefect};
-use crate::contact::{Aside, Sink, V2, turned, wrapped};
+use crate::contact::{PointForce, Sink, V2, turned, wrapped};
 
 /// Damages smaller than it that a contact meets at once, at most.
 pub(crate) const MOST_AT_ONCE: usize = 4;
@@ -96,14 +96,14 @@ impl<'a> Facing<'a> {
 
     fn met_on_race<'d>(&self, defect: &'d SurfaceDefect) -> Option<MetDamage<'d>> {
         let small = defect.as_releases()?;
-        let aside = wrapped(defect.angle - self.on_ring);
-        if aside.abs() > defect.reach {
+        let offset = wrapped(defect.angle - self.on_ring);
+        if offset.abs() > defect.reach {
             return None;
         }
         let (cos, sin) = self.section.normal;
         let angle = ((defect.middle - self.race.centre) / self.race.r).asin();
         let radius = small.bed().radius;
-        let at = [self.race.r * (angle - sin.atan2(cos)), radius * aside];
+        let at = [self.race.r * (angle - sin.atan2(cos)), radius * offset];
         let place = SmallPlace {
             at,
             body: PlaceBody::Race { radius },
@@ -148,9 +148,9 @@ impl<'a> Facing<'a> {
             match place.body {
                 PlaceBody::Race { radius } => {
                     let by_angle = -self.race.r * u_x;
-                    sink.aside(&self.turning_by(by_angle));
+                    sink.point(&self.turning_by(by_angle));
                     let plane = turned(self.n) * (radius * u_y / self.distance);
-                    sink.aside(&Aside::at(V2::zeros(), plane, 0.0));
+                    sink.point(&PointForce::at(V2::zeros(), plane, 0.0));
                 }
                 PlaceBody::Ball(e) => self.ball_force(&e, [u_x, u_y], sink),
             }
@@ -160,13 +160,13 @@ impl<'a> Facing<'a> {
     fn ball_force<S: Sink + ?Sized>(&self, e: &Vector3<f64>, [u_x, u_y]: [f64; 2], sink: &mut S) {
         let radius = self.radius;
         let [n_c, along, across] = self.axes();
-        sink.aside(&self.turning_by(-radius * e.dot(&n_c) * u_x));
+        sink.point(&self.turning_by(-radius * e.dot(&n_c) * u_x));
         let moment = e.cross(&(along * u_x + across * u_y)) * -radius;
         // Its part about the axis is ∂U/∂φ, of a force at the ring's centre.
         let plane = turned(self.n) * (-moment.z / self.distance);
-        sink.aside(&Aside {
+        sink.point(&PointForce {
             across: moment.xy(),
-            ..Aside::at(-self.apart, plane, 0.0)
+            ..PointForce::at(-self.apart, plane, 0.0)
         });
     }
 }

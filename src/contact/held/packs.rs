@@ -4,7 +4,7 @@
 #![allow(clippy::inline_always)]
 
 use super::{AXIAL, Around, HeldElement, HeldRolling, PlaneVector};
-use crate::contact::{OilTouch, Sink, Touch, V2, cross, turned};
+use crate::contact::{ContactForce, OilForce, Sink, V2, cross, turned};
 use crate::simd::{LANES, Lanes};
 
 /// Eight slices of one contact, each with its own direction.
@@ -13,8 +13,8 @@ pub(crate) struct SlicePack {
     pub n_e: PlaneVector,
     pub element: HeldElement,
     pub rolling: HeldRolling,
-    /// Axis by which edges of the ball's own turn beside the ring's axis, along n_e and t_e (see [`Touch`]).
-    swing: PlaneVector,
+    /// Axis by which edges of the ball's own turn beside the ring's axis, along n_e and t_e (see [`ContactForce`]).
+    turn_axis: PlaneVector,
 }
 
 impl SlicePack {
@@ -23,7 +23,7 @@ impl SlicePack {
     #[inline(always)]
     pub fn approach<const N: usize>(&self, twist: &mut [Lanes; N]) {
         if N > AXIAL {
-            let rate = self.swing[0] * twist[AXIAL] + self.swing[1] * twist[AXIAL + 1];
+            let rate = self.turn_axis[0] * twist[AXIAL] + self.turn_axis[1] * twist[AXIAL + 1];
             let (sin, cos) = self.element.slope;
             let size = rate * self.element.levers[0] * self.pressing();
             twist[0] += size * cos;
@@ -61,7 +61,7 @@ pub(crate) struct SlicePacking<'a> {
 }
 
 impl Sink for SlicePacking<'_> {
-    fn touch(&mut self, touch: &Touch) {
+    fn force(&mut self, force: &ContactForce) {
         if std::mem::take(&mut self.is_new) {
             self.contacts.push((self.lane, self.around));
             self.count = 0;
@@ -79,44 +79,44 @@ impl Sink for SlicePacking<'_> {
             n_e,
             element,
             rolling,
-            swing,
+            turn_axis,
         } = pack;
         // Friction lies across the force's direction, whose share on the common normal is of length 1.
-        let (in_plane, axial) = touch.share;
+        let (in_plane, axial) = force.share;
         let over = in_plane.hypot(axial).recip();
         let (sin, cos) = (axial * over, in_plane * over);
-        let (out, arm) = (touch.n_e, touch.arm_ball);
+        let (out, arm) = (force.n_e, force.arm_ball);
         (n_e[0][lane], n_e[1][lane]) = (out.x, out.y);
-        element.elastic[lane] = touch.elastic;
-        element.hardening[lane] = if touch.depth > 0.0 {
-            self.exponent / touch.depth
+        element.elastic[lane] = force.elastic;
+        element.hardening[lane] = if force.depth > 0.0 {
+            self.exponent / force.depth
         } else {
             0.0
         };
-        (element.share.0[lane], element.share.1[lane]) = touch.share;
-        element.friction_weight[lane] = touch.friction_weight;
+        (element.share.0[lane], element.share.1[lane]) = force.share;
+        element.friction_weight[lane] = force.friction_weight;
         (element.slope.0[lane], element.slope.1[lane]) = (sin, cos);
-        rolling.load[lane] = touch.elastic / touch.width;
-        rolling.depth[lane] = touch.depth;
+        rolling.load[lane] = force.elastic / force.width;
+        rolling.depth[lane] = force.depth;
         rolling.arm[lane] = arm.dot(&self.outwards);
         element.levers[0][lane] = cross(arm, out);
         element.levers[1][lane] = cross(arm, turned(out));
-        element.place[lane] = touch.zeta;
-        (swing[0][lane], swing[1][lane]) = (
-            touch.swing.xy().dot(&out),
-            touch.swing.xy().dot(&turned(out)),
+        element.place[lane] = force.zeta;
+        (turn_axis[0][lane], turn_axis[1][lane]) = (
+            force.turn_axis.xy().dot(&out),
+            force.turn_axis.xy().dot(&turned(out)),
         );
     }
 
-    fn oil(&mut self, touch: &OilTouch) {
+    fn oil(&mut self, force: &OilForce) {
         if self.is_new {
             // Nothing touched.
             return;
         }
         if let Some((_, around)) = self.contacts.last_mut() {
-            around.oil = touch.oil.map(|number| Lanes::all(*number));
-            around.distance = Lanes::all(touch.apart.norm());
-            around.lever = Lanes::all(touch.lever);
+            around.oil = force.oil.map(|number| Lanes::all(*number));
+            around.distance = Lanes::all(force.apart.norm());
+            around.lever = Lanes::all(force.lever);
         }
         self.is_new = true;
     }

@@ -63,9 +63,9 @@ impl<T: Number> Needles<T> {
         let one = half.same(1.0);
         let square = c_1 * c_1 - c_0 * c_2 * 4.0;
         let root = square.or_zero().sqrt();
-        let sign = c_1.gates(one + one) + -1.0;
+        let sign = c_1.positive_then(one + one) + -1.0;
         let q = (c_1 + sign * root) * -0.5;
-        let there = square.gates(one);
+        let there = square.positive_then(one);
         // No step of Newton's method leads from one zero to the other.
         let far = root / (c_2.abs() + TINY) * 0.125;
         let limit = far - (far + -0.1).or_zero();
@@ -168,7 +168,7 @@ impl<T: Number> Needle<T> {
         (there, limit): (T, T),
     ) -> Self {
         let one = over.same(1.0);
-        let near = (under.abs() * REACH - over.abs()).gates(there);
+        let near = (under.abs() * REACH - over.abs()).positive_then(there);
         let mut place = near * quotient::<T, FMA>(over, under);
         for _ in 0..2 {
             let (value, slope) = polynomial::<T, FMA>(&zone.along, place);
@@ -189,19 +189,20 @@ impl<T: Number> Needle<T> {
         let (across, bend) = (across * over_steep, bend * over_steep);
         let width = across.mul_add::<FMA>(across, bend * bend);
         // A needle as wide as the zone is none, and would not be a number where nothing slips.
-        let narrow = (one - width).gates(near);
+        let narrow = (one - width).positive_then(near);
         let none = one - narrow;
-        let width = narrow.gates(width) + none;
+        let width = narrow.positive_then(width) + none;
         Self {
             place,
-            size: narrow.gates(over_steep / fading),
-            across: narrow.gates(across * across),
-            bend: narrow.gates(bend) + none,
+            size: narrow.positive_then(over_steep / fading),
+            across: narrow.positive_then(across * across),
+            bend: narrow.positive_then(bend) + none,
             width,
             blunt: width.sqrt(),
             // No more than a needle of its width can bend.
-            curve: narrow
-                .gates(second * slope / (second * second).mul_add::<FMA>(width * 4.0, steepest)),
+            curve: narrow.positive_then(
+                second * slope / (second * second).mul_add::<FMA>(width * 4.0, steepest),
+            ),
         }
     }
 
@@ -238,7 +239,7 @@ impl<T: Number> Needle<T> {
         let (near, far) = (place.abs() + -1.0, place.abs() + 1.0);
         let (sum, apart) = (high.r + low.r, (high.r - low.r).abs());
         let (long, short) = ((sum + apart) * 0.5, (sum - apart) * 0.5);
-        let beyond = near.gates(one);
+        let beyond = near.positive_then(one);
         let within = one - beyond;
         let over = beyond + within * (short - near);
         let under = beyond * (near + short) + within * width;

@@ -5,8 +5,8 @@ use nalgebra::{Rotation3, Vector3};
 use super::gradient_tests::{RADIUS, pair};
 use crate::contact::hertz::Hertz;
 use crate::contact::{
-    Aside, BallSide, Bed, Damping, Motion, Pair, PittedContact, Sink, SurfaceDefect, Torus, Touch,
-    Traction, V2, Wrench, ZoneSlices,
+    BallSide, Bed, ContactForce, Damping, Motion, Pair, PittedContact, PointForce, Sink,
+    SurfaceDefect, Torus, Traction, V2, Wrench, ZoneSlices,
 };
 use crate::scene::{Damage, Defect, Floor, Friction, Material, Surface, WidthProfile};
 
@@ -27,17 +27,17 @@ impl Sink for ContactParts {
         true
     }
 
-    fn touch(&mut self, touch: &Touch) {
-        self.energy += touch.energy;
-        self.elastic.add(&touch.on_ball(touch.elastic, 0.0));
-        self.normal.add(&touch.on_ball(touch.normal, 0.0));
-        self.friction.add(&touch.on_ball(0.0, 1.0));
-        self.powers[0] += touch.normal * touch.approach;
-        self.powers[1] += touch.friction_power;
-        self.edges += usize::from(touch.swing != Vector3::z());
+    fn force(&mut self, force: &ContactForce) {
+        self.energy += force.energy;
+        self.elastic.add(&force.on_ball(force.elastic, 0.0));
+        self.normal.add(&force.on_ball(force.normal, 0.0));
+        self.friction.add(&force.on_ball(0.0, 1.0));
+        self.powers[0] += force.normal * force.approach;
+        self.powers[1] += force.friction_power;
+        self.edges += usize::from(force.turn_axis != Vector3::z());
     }
 
-    fn aside(&mut self, force: &Aside) {
+    fn point(&mut self, force: &PointForce) {
         self.elastic.add(&force.on_ball());
     }
 }

@@ -8,8 +8,8 @@ use super::*;
 use crate::contact::hertz::Hertz;
 use crate::contact::iso16281::Iso16281;
 use crate::contact::{
-    Aside, BallSide, Bed, Elastic, Law, Motion, Pair, PittedContact, Rules, Shape, SurfaceDefect,
-    Torus, Touch, Waves, WrenchSum, ZoneSlices,
+    BallSide, Bed, ContactForce, Elastic, Law, Motion, Pair, PittedContact, PointForce, Rules,
+    Shape, SurfaceDefect, Torus, Waves, WrenchSum, ZoneSlices,
 };
 use crate::scene::{Damage, Defect, Floor, Material, Surface, Waviness, Width, WidthProfile};
 
@@ -27,13 +27,13 @@ impl Sink for ElasticParts {
         true
     }
 
-    fn touch(&mut self, touch: &Touch) {
-        self.energy += touch.energy;
-        self.on_ball.add(touch, touch.elastic, 0.0);
+    fn force(&mut self, force: &ContactForce) {
+        self.energy += force.energy;
+        self.on_ball.add(force, force.elastic, 0.0);
     }
 
-    fn aside(&mut self, force: &Aside) {
-        self.on_ball.aside(force);
+    fn point(&mut self, force: &PointForce) {
+        self.on_ball.point(force);
     }
 }
 
@@ -95,9 +95,9 @@ fn off(pair: &Pair, ball: &BallSide, place: [f64; 5]) -> f64 {
         let lever = if i < 3 { 1.0 } else { RADIUS };
         let step = 1e-8 / lever;
         let energy = |share: f64| {
-            let mut aside = place;
-            aside[i] += share * step;
-            at(pair, ball, aside).energy
+            let mut moved = place;
+            moved[i] += share * step;
+            at(pair, ball, moved).energy
         };
         let slope =
             (8.0 * (energy(1.0) - energy(-1.0)) - energy(2.0) + energy(-2.0)) / (12.0 * step);
@@ -225,11 +225,11 @@ fn forces_of_small_damages([of_race, of_ball]: [Damage; 2]) {
             let hertz = Hertz::new(sigma, 2.0 * RADIUS, 60e-3, 0.52, 0.3, &steel, &steel);
             let contacts = [PittedContact::of(&hertz); 2];
             for (k, place) in places(sigma, false).into_iter().enumerate() {
-                let (aside, across) = ([0.02e-3, -0.05e-3, 0.0, 0.07e-3][k], 0.1e-3);
+                let (moved, across) = ([0.02e-3, -0.05e-3, 0.0, 0.07e-3][k], 0.1e-3);
                 let l = 6.24e-3 - RADIUS + 15e-6;
                 let angle = ((place[2] - 0.1e-3) / l).asin();
                 let direction = place[1].atan2(place[0]);
-                let turned = direction - place[4] + aside / 30e-3;
+                let turned = direction - place[4] + moved / 30e-3;
                 let on_race = Defect::of(of_race.clone(), Surface::OuterRace, turned);
                 let z = 0.1e-3 + 6.24e-3 * angle.sin() + across;
                 let radius = plain.race.radius(z).unwrap();
@@ -240,7 +240,7 @@ fn forces_of_small_damages([of_race, of_ball]: [Damage; 2]) {
                 } else {
                     direction + PI
                 };
-                let turned = facing - place[3] - aside / RADIUS;
+                let turned = facing - place[3] - moved / RADIUS;
                 let on_ball = Defect::of(of_ball.clone(), Surface::Ball, turned);
                 let bed = Bed::round(RADIUS * angle.sin() - across, RADIUS, contacts);
                 let mut pit = SurfaceDefect::within(&on_ball, &bed);

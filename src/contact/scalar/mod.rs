@@ -2,8 +2,8 @@
 
 #[cfg(test)]
 mod cap_tests;
-mod coat;
 mod ends;
+mod film_layer;
 mod friction_weights;
 #[cfg(test)]
 mod gradient_tests;
@@ -15,7 +15,7 @@ mod within;
 pub(super) use shape::Kind;
 pub use shape::Shape;
 use slices::Line;
-pub(crate) use within::Sighted;
+pub(crate) use within::DefectContact;
 
 use std::mem::discriminant;
 
@@ -24,8 +24,8 @@ use super::laws::traction::Rolling;
 use super::profile::{Before, Meeting, Raise, Section};
 use super::slip::{Moves, Slip};
 use super::{
-    Cut, FilmEffect, FilmNumbers, Law, Motion, OilTouch, Oiled, Sink, SurfaceDefect, Torus, Touch,
-    Toward, V2, Waves, ZoneSlices, turned,
+    ContactDirection, ContactForce, Cut, FilmEffect, FilmNumbers, Law, Motion, OilForce, Oiled,
+    Sink, SurfaceDefect, Torus, V2, Waves, ZoneSlices, turned,
 };
 
 /// Quantities that all contacts of a row's balls with one race share.
@@ -197,13 +197,13 @@ impl Pair {
             swell,
         } = *standing;
         let on_ring = r.angle_of(angle);
-        let toward = Toward::ball(b, n * self.race.sigma, self.outwards(angle));
+        let direction = ContactDirection::ball(b, n * self.race.sigma, self.outwards(angle));
         let cuts = |defect: &&SurfaceDefect| defect.cuts();
-        let on_race = Toward::race(on_ring);
+        let on_race = ContactDirection::race(on_ring);
         let mut arcs = self.defects.iter().filter(cuts);
         let ring_open = arcs.any(|defect| defect.in_reach(&on_race));
         let mut arcs = ball.defects.iter().filter(cuts);
-        let ball_near = arcs.any(|defect| defect.in_reach(&toward));
+        let ball_near = arcs.any(|defect| defect.in_reach(&direction));
         OneContact {
             facing: Facing {
                 race: self.race,
@@ -252,8 +252,10 @@ impl Pair {
 
     /// Whether a defect of the race may be met at an angle from the ring's mark \[rad\].
     pub(super) fn is_near(&self, angle: f64) -> bool {
-        let toward = Toward::race(angle);
-        self.defects.iter().any(|defect| defect.in_reach(&toward))
+        let direction = ContactDirection::race(angle);
+        self.defects
+            .iter()
+            .any(|defect| defect.in_reach(&direction))
     }
 
     /// How the ball moves against the ring.
@@ -368,7 +370,7 @@ impl OneContact<'_> {
                 self.facing.race.sigma,
                 self.facing.section.radius * self.facing.section.normal.0,
             );
-            sink.oil(&OilTouch::new(
+            sink.oil(&OilForce::new(
                 oiled,
                 r,
                 &moves,
@@ -425,8 +427,8 @@ impl OneContact<'_> {
 struct ElasticSum(f64);
 
 impl Sink for ElasticSum {
-    fn touch(&mut self, touch: &Touch) {
-        self.0 += touch.elastic;
+    fn force(&mut self, force: &ContactForce) {
+        self.0 += force.elastic;
     }
 }
 
@@ -438,7 +440,7 @@ impl Sink for EnergySum {
         true
     }
 
-    fn touch(&mut self, touch: &Touch) {
-        self.0 += touch.energy;
+    fn force(&mut self, force: &ContactForce) {
+        self.0 += force.energy;
     }
 }

@@ -1,9 +1,9 @@
 //! The forces of a slice: of every element of the ring against every element of the ball that it touches.
 
 use super::OneContact;
-use crate::contact::damage::{Depth, ElementPair, Node, RingElement, Sloped, WaveSlope};
+use crate::contact::damage::{Depth, Node, RingSurface, Sloped, SurfacePair, WaveSlope};
 use crate::contact::kernel::{self, ElementState};
-use crate::contact::{Aside, Sink, Touch, V2, cross, turned};
+use crate::contact::{ContactForce, PointForce, Sink, V2, cross, turned};
 
 impl OneContact<'_> {
     /// Presses one slice against whatever it meets.
@@ -21,29 +21,29 @@ impl OneContact<'_> {
         // Forces along normals are all there is to the ISO law, and where surfaces are whole.
         if self.facing.common().is_some() && (self.facing.ring_open || self.facing.ball_open) {
             self.facing
-                .element_pairs(node, &mut |met: &ElementPair<Sloped>| {
+                .surface_pairs(node, &mut |met: &SurfacePair<Sloped>| {
                     if self.force(node, met, sink) {
                         self.facing.tilt(node, met, sink);
                     }
                 });
         } else {
             self.facing
-                .element_pairs(node, &mut |met: &ElementPair<f64>| {
+                .surface_pairs(node, &mut |met: &SurfacePair<f64>| {
                     self.force(node, met, sink);
                 });
         }
     }
 
-    /// Elastic force, damping and friction of one feature of the ring against one of the ball; false without any.
+    /// Elastic force, damping and friction of one surface of the ring against one of the ball; false without any.
     fn force<D: Depth, S: Sink + ?Sized>(
         &self,
         node: &Node,
-        met: &ElementPair<D>,
+        met: &SurfacePair<D>,
         sink: &mut S,
     ) -> bool {
         let pair = self.pair;
         let share = self.facing.drop_share();
-        let (feature, tan) = (&met.feature, met.tan);
+        let (surface, tan) = (&met.surface, met.tan);
         let split = |law: &dyn Fn(f64) -> f64| {
             let at = |(sign, drop): (f64, D)| {
                 if drop.value() < f64::INFINITY {
@@ -59,19 +59,19 @@ impl OneContact<'_> {
         if elastic <= 0.0 {
             return false;
         }
-        let depth = node.depth - share * (feature.drops.0.value() + met.ball_drops.0.value());
-        let n_e = feature.n_e;
-        let mut state = self.state(node, feature, tan, (elastic, depth));
+        let depth = node.depth - share * (surface.drops.0.value() + met.ball_drops.0.value());
+        let n_e = surface.n_e;
+        let mut state = self.state(node, surface, tan, (elastic, depth));
         let force = if self.facing.b.across == V2::zeros() {
             kernel::force::<_, false, false, false, false>(&pair.law, &state, 0.0)
         } else {
-            let across = self.turning_across(node, feature, &mut state);
+            let across = self.turning_across(node, surface, &mut state);
             kernel::force::<_, false, false, false, true>(&pair.law, &state, across)
         };
         let [radial, tangential, axial] = force.friction;
         let [v_t, u_m] = force.slip;
         let squared = v_t * v_t + u_m * u_m;
-        let touch = Touch {
+        let force = ContactForce {
             zeta: node.zeta,
             z: node.z,
             width: node.width,
@@ -92,23 +92,23 @@ impl OneContact<'_> {
             friction_z: axial,
             slip: squared.sqrt(),
             friction_power: force.factor * force.damped.max(0.0) * squared,
-            arm_ball: feature.arm_ring - self.facing.apart,
-            swing: feature.swing,
+            arm_ball: surface.arm_ring - self.facing.apart,
+            turn_axis: surface.turn_axis,
             pull: force.damped < 0.0,
         };
-        sink.touch(&touch);
+        sink.force(&force);
         if !pair.waves.is_round() {
-            let WaveSlope { force, arm } = feature.wave_slope;
-            sink.aside(&Aside {
+            let WaveSlope { force, arm } = surface.wave_slope;
+            sink.point(&PointForce {
                 plane: force * (elastic * state.share.0),
                 axial: 0.0,
                 arm_ball: arm,
-                swing: feature.swing,
+                turn_axis: surface.turn_axis,
                 across: V2::zeros(),
             });
         }
         if !self.facing.ball_side.waves.is_round() {
-            sink.aside(&self.facing.texture_force(elastic));
+            sink.point(&self.facing.texture_force(elastic));
         }
         true
     }
@@ -118,14 +118,14 @@ impl OneContact<'_> {
     fn state<D: Depth>(
         &self,
         node: &Node,
-        feature: &RingElement<D>,
+        surface: &RingSurface<D>,
         tan: f64,
         (elastic, depth): (f64, f64),
     ) -> ElementState<f64> {
-        let (b, r, n_e) = (self.facing.b, self.facing.r, feature.n_e);
-        let arm_ball = feature.arm_ring - self.facing.apart;
+        let (b, r, n_e) = (self.facing.b, self.facing.r, surface.n_e);
+        let arm_ball = surface.arm_ring - self.facing.apart;
         let v_p = b.velocity - r.velocity + turned(arm_ball) * b.omega
-            - turned(feature.arm_ring) * r.omega;
+            - turned(surface.arm_ring) * r.omega;
         let radius = self.facing.radius;
         // Along the common tangent, or α of the slice or of the gap's gradient at a ball's fault circle.
         let slope = if let Some((cos, sin)) = self.facing.common() {
@@ -135,7 +135,7 @@ impl OneContact<'_> {
             (tan * cos, cos)
         };
         let (load, arm) = if self.pair.reads_rolling() {
-            let arm = feature.arm_ring.dot(&self.facing.n) - self.facing.distance;
+            let arm = surface.arm_ring.dot(&self.facing.n) - self.facing.distance;
             (elastic / node.width, arm)
         } else {
             (0.0, 0.0)
@@ -164,16 +164,16 @@ impl OneContact<'_> {
     fn turning_across<D: Depth>(
         &self,
         node: &Node,
-        feature: &RingElement<D>,
+        surface: &RingSurface<D>,
         state: &mut ElementState<f64>,
     ) -> f64 {
-        let (n_e, across) = (feature.n_e, self.facing.b.across);
-        let arm = feature.arm_ring - self.facing.apart;
+        let (n_e, across) = (surface.n_e, self.facing.b.across);
+        let arm = surface.arm_ring - self.facing.apart;
         let w = [across.dot(&n_e), across.dot(&turned(n_e))];
         let place = (arm.dot(&n_e), node.zeta);
         let [along, meridional] = kernel::slip_of_turning::<_, false>(w, place, state.slope);
         // An edge of the ball's own comes nearer as it turns, and stands off the line of centres.
-        let rate = cross(arm, n_e) * feature.swing.xy().dot(&across);
+        let rate = cross(arm, n_e) * surface.turn_axis.xy().dot(&across);
         let [nearer, _, axial] = approaching(rate, state.share, state.slope);
         state.velocity[0] += nearer;
         state.velocity[1] += along;

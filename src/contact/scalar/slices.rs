@@ -12,7 +12,7 @@ use super::OneContact;
 use crate::contact::damage::{BESIDE, Node, Owner};
 use crate::contact::profile::{Chord, Ends, Section, Zone};
 use crate::contact::quadrature::MOST;
-use crate::contact::{Rules, Sink, SurfaceDefect, Toward, ZoneSlices};
+use crate::contact::{ContactDirection, Rules, Sink, SurfaceDefect, ZoneSlices};
 
 /// The line along which a contact is cut, over the zone low … high of u.
 pub(in crate::contact) struct Line {
@@ -208,13 +208,13 @@ impl OneContact<'_> {
     fn fitted<S: Sink + ?Sized>(&self, line: &Line, rules: &Rules, sink: &mut S) {
         let race = &self.facing.race;
         let dz = self.facing.z;
-        let toward = Toward::race(self.facing.on_ring);
+        let direction = ContactDirection::race(self.facing.on_ring);
         let shoulders = [race.centre + race.lowest, race.centre + race.highest];
         // Few, so the next one is found by looking at all.
         let cuts = shoulders
             .into_iter()
             .map(|z| z - dz)
-            .chain(self.ends_on_race(|defect| defect.in_reach(&toward)))
+            .chain(self.ends_on_race(|defect| defect.in_reach(&direction)))
             .chain(self.ends_on_ball())
             .chain(self.facing.crossings())
             .filter_map(|zeta| line.u(zeta));

@@ -1,15 +1,15 @@
 //! The load of a contact within a defect.
 
-use crate::contact::{BallSide, Motion, Pair, Sink, SurfaceDefect, Touch};
+use crate::contact::{BallSide, ContactForce, Motion, Pair, Sink, SurfaceDefect};
 
 /// A defect as a contact sees it.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Sighted<'a> {
+pub(crate) struct DefectContact<'a> {
     pub defect: &'a SurfaceDefect,
     /// Whether the ball has it, and not the race.
     pub on_ball: bool,
     /// How far the contact's direction is from the defect's \[rad\].
-    pub aside: f64,
+    pub offset: f64,
     /// How the ball stands.
     pub ball: &'a Motion,
 }
@@ -26,7 +26,7 @@ pub(crate) struct LoadWithin {
 }
 
 struct LoadSum<'a> {
-    defect: &'a Sighted<'a>,
+    defect: &'a DefectContact<'a>,
     radius: f64,
     pair: &'a Pair,
     load: f64,
@@ -35,24 +35,24 @@ struct LoadSum<'a> {
 }
 
 impl Sink for LoadSum<'_> {
-    fn touch(&mut self, touch: &Touch) {
+    fn force(&mut self, force: &ContactForce) {
         let (place, radius) = if self.defect.on_ball {
-            let square = self.radius * self.radius - touch.zeta * touch.zeta;
-            (touch.zeta, square.max(0.0).sqrt())
+            let square = self.radius * self.radius - force.zeta * force.zeta;
+            (force.zeta, square.max(0.0).sqrt())
         } else {
-            let at = self.pair.radius_at(touch.z);
-            (touch.z, at.unwrap_or(self.pair.race.a))
+            let at = self.pair.radius_at(force.z);
+            (force.z, at.unwrap_or(self.pair.race.a))
         };
-        self.load += touch.normal;
-        self.moment += touch.normal * place;
-        let Sighted {
+        self.load += force.normal;
+        self.moment += force.normal * place;
+        let DefectContact {
             defect,
-            aside,
+            offset,
             ball,
             ..
         } = self.defect;
-        if defect.covers(place, radius, *aside, ball) {
-            self.within += touch.normal;
+        if defect.covers(place, radius, *offset, ball) {
+            self.within += force.normal;
         }
     }
 }
@@ -64,7 +64,7 @@ impl Pair {
         ball: &BallSide,
         b: &Motion,
         r: &Motion,
-        defect: &Sighted<'_>,
+        defect: &DefectContact<'_>,
     ) -> LoadWithin {
         let mut sum = LoadSum {
             defect,

@@ -1,7 +1,7 @@
 //! Rows whose balls keep their axial places and touch both races in closed form: one loop along the balls.
 
 use super::{Guarantees, Single, View};
-use crate::contact::{AxiallyFixedBalls, AxiallyFixedRace, InPlane, Pair, Sight};
+use crate::contact::{AngularReach, AxiallyFixedBalls, AxiallyFixedRace, InPlane, Pair};
 use crate::forces::Table;
 use crate::model::{BodyId, DOFS, Dof, Model, Race};
 use crate::simd::{LANES, Simd, Vector, Wide};
@@ -95,7 +95,7 @@ impl AxiallyFixedRow {
                 }
             }
             for defect in &pair.defects {
-                let Sight { middle, bound } = defect.sight(ring.theta);
+                let AngularReach { middle, bound } = defect.angular_reach(ring.theta);
                 let balls = row.balls();
                 for (j, whole) in balls.zip(&mut side.whole) {
                     let apart = seen(j).centre;

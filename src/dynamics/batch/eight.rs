@@ -120,7 +120,7 @@ impl SideConstants {
     }
 
     /// Takes over the radii of races and the numbers of their films.
-    pub fn coat(&mut self, model: &Model, race: Race) {
+    pub fn update_films(&mut self, model: &Model, race: Race) {
         for (of, ball) in self.balls.iter_mut().zip(&model.balls) {
             of.r = model.rows[ball.row].pairs[race].race.r;
         }

@@ -47,7 +47,7 @@ impl Neighbours {
     }
 
     /// Takes over the radii of races.
-    pub fn coat(&mut self, model: &Model) {
+    pub fn update_films(&mut self, model: &Model) {
         for (of, pair) in self.constants.iter_mut().zip(&model.rows[self.row].pairs) {
             of.r = Lanes::all(pair.race.r);
         }

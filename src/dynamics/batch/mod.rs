@@ -156,12 +156,12 @@ impl Batch {
     }
 
     /// Takes over the radii of races whose films have changed.
-    pub fn coat(&mut self, model: &Model) {
+    pub fn update_films(&mut self, model: &Model) {
         for race in Race::BOTH {
-            self.constants[race].coat(model, race);
+            self.constants[race].update_films(model, race);
         }
         for stretch in &mut self.stretches {
-            stretch.coat(model);
+            stretch.update_films(model);
         }
     }
 

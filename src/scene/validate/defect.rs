@@ -109,8 +109,8 @@ fn overlaps(row: &Row, one: &Defect, other: &Defect) -> bool {
         Surface::InnerRace => pitch - ball,
         Surface::Ball => ball,
     };
-    let aside = (one.angle - other.angle).rem_euclid(2.0 * PI);
-    let apart = radius * aside.min(2.0 * PI - aside);
+    let between = (one.angle - other.angle).rem_euclid(2.0 * PI);
+    let apart = radius * between.min(2.0 * PI - between);
     let across = match (one.axial_offset.number(), other.axial_offset.number()) {
         (Some(one), Some(other)) => (one - other).abs(),
         (None, None) => 0.0,

@@ -14,7 +14,7 @@ impl Remembered for DefectWatch {
             of.largest_load.pass(words);
             of.most.pass(words);
             for contact in &mut of.contacts {
-                contact.aside.pass(words);
+                contact.offset.pass(words);
                 contact.pass.pass(words);
             }
         }

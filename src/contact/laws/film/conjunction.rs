@@ -4,7 +4,7 @@ use super::oil::Oil;
 use crate::contact::laws::elastic::elliptic;
 use crate::contact::laws::elastic::hertz::Hertz;
 
-/// A race of a row as its film sees it, without coat.
+/// A race of a row as its film sees it, without the film's thickness.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LubricatedRace {
     /// σ: +1 outer, −1 inner.

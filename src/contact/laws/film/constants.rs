@@ -125,7 +125,7 @@ impl Film {
         } = self.effects;
         FilmNow {
             film,
-            coat: if self.effects.film { film } else { 0.0 },
+            layer: if self.effects.film { film } else { 0.0 },
             roughness: self.oil.roughness,
             entrainment,
             traction: TractionNow::new(&self.oil, &self.conjunction, entrainment, film),

@@ -16,7 +16,7 @@ pub struct Oiled {
     pub film: Film,
     /// The film at the present speed of the rings.
     pub now: FilmNow,
-    /// Radius of the groove without the coat \[m\].
+    /// Radius of the groove without the film \[m\].
     pub bare_radius: f64,
 }
 

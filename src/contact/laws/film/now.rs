@@ -13,7 +13,7 @@ pub struct FilmNow {
     /// h \[m\].
     pub(super) film: f64,
     /// h where it separates the surfaces, else 0 \[m\].
-    pub(super) coat: f64,
+    pub(super) layer: f64,
     /// s_q \[m\].
     pub(super) roughness: f64,
     /// ũ \[m/s\].
@@ -24,9 +24,9 @@ pub struct FilmNow {
 }
 
 impl FilmNow {
-    /// Thickness h of the coat on the ring \[m\]; 0 where the film is left out, though the other effects use it.
+    /// Thickness h of the film on the ring \[m\]; 0 where the film is left out, though the other effects use it.
     pub fn thickness(&self) -> f64 {
-        self.coat
+        self.layer
     }
 
     /// Thickness h in the middle of a contact \[m\], also where the film is left out and only other effects use it.

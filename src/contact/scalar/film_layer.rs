@@ -15,7 +15,7 @@ impl Pair {
                 self.slices = ZoneSlices::Fitted(Rules::for_films(rules.count(), exponent));
             }
         }
-        self.coat(oiled.now.thickness());
+        self.lay_film(oiled.now.thickness());
     }
 
     /// The film at another speed of the rings against each other \[rad/s\].
@@ -28,16 +28,16 @@ impl Pair {
             self.law.traction = Some(Traction::of_film(&oiled.now));
         }
         self.law.film = Some(oiled);
-        self.coat(oiled.now.thickness());
+        self.lay_film(oiled.now.thickness());
     }
 
     /// Lays a film of a thickness \[m\] on the race and on its fault circles, whose centres stay.
-    fn coat(&mut self, thickness: f64) {
+    fn lay_film(&mut self, thickness: f64) {
         if let Some(oiled) = &self.law.film {
             self.race.r = oiled.bare_radius - thickness;
         }
         for defect in &mut self.defects {
-            defect.coat = thickness;
+            defect.film_layer = thickness;
         }
     }
 }

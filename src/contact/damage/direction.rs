@@ -7,7 +7,7 @@ use crate::contact::{Motion, V2, cross, wrapped};
 
 /// A direction in which a ball or a race is met, as its defects are asked about it.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Toward<'a> {
+pub(crate) struct ContactDirection<'a> {
     /// Angle from the body's mark \[rad\].
     pub(super) angle: f64,
     /// Direction in the ring's frame.
@@ -16,7 +16,7 @@ pub(crate) struct Toward<'a> {
     ball: Option<&'a Motion>,
 }
 
-impl<'a> Toward<'a> {
+impl<'a> ContactDirection<'a> {
     /// The direction of a race, at an angle from the ring's mark \[rad\].
     pub fn race(angle: f64) -> Self {
         Self {
@@ -41,15 +41,15 @@ impl<'a> Toward<'a> {
     }
 
     /// The angle from here to a direction e of the ball \[rad\].
-    pub(super) fn aside_of(&self, e: &Vector3<f64>) -> f64 {
+    pub(super) fn angle_to(&self, e: &Vector3<f64>) -> f64 {
         cross(self.n, e.xy()).atan2(self.n.dot(&e.xy()))
     }
 
     /// Distance of the direction from a defect's middle \[rad\].
-    pub fn aside(&self, defect: &SurfaceDefect) -> f64 {
+    pub fn offset(&self, defect: &SurfaceDefect) -> f64 {
         match self.pole(defect) {
             None => wrapped(self.angle - defect.angle),
-            Some(e) => -self.aside_of(&e),
+            Some(e) => -self.angle_to(&e),
         }
     }
 

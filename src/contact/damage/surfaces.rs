@@ -1,10 +1,10 @@
-//! Surfaces that a slice touches: features of the ring against features of the ball.
+//! Surfaces that a slice touches: those of the ring against those of the ball.
 //!
-//! The surfaces that a slice can meet are *features*: the race itself, or the fault circles of a ring
+//! A slice can meet several surfaces: the race itself, or the fault circles of a ring
 //! defect; and seen from each of these the ball is smooth, or a pair of circles of a ball defect. A
-//! feature carries `law(s − a) − law(s − b)` of the healthy penetration s, its *drops* a and b:
+//! surface carries `law(s − a) − law(s − b)` of the healthy penetration s, its *drops* a and b:
 //!
-//! | feature | a | b |
+//! | surface | a | b |
 //! |---|---|---|
 //! | race, healthy | 0 | ∞ |
 //! | edge j of an absent arc | s_race − s_j | (s_race − s₁) + (s_race − s₂) |
@@ -19,13 +19,13 @@ use nalgebra::Vector3;
 
 use super::arc::{Arc, Edge, WITH_RING_AXIS, absent, floors};
 use super::depth::Depth;
+use super::direction::ContactDirection;
 use super::facing::{Facing, Node};
-use super::toward::Toward;
 use crate::contact::{V2, turned};
 
-/// The ring's side of a feature.
+/// The ring's side of a surface.
 #[derive(Clone, Copy)]
-pub(in crate::contact) enum FeatureShape {
+pub(in crate::contact) enum SurfaceKind {
     Race,
     Circle {
         from_ring: V2,
@@ -44,8 +44,8 @@ pub(in crate::contact) struct WaveSlope {
 
 /// A surface of the ring that a slice can meet.
 #[derive(Clone, Copy)]
-pub(in crate::contact) struct RingElement<D> {
-    pub shape: FeatureShape,
+pub(in crate::contact) struct RingSurface<D> {
+    pub shape: SurfaceKind,
     /// Unit vector out of the ball.
     pub n_e: V2,
     /// Penetration of the smooth ball against it, by geometry.
@@ -54,22 +54,22 @@ pub(in crate::contact) struct RingElement<D> {
     pub arm_ring: V2,
     pub wave_slope: WaveSlope,
     /// How rotations of the ball move it along its slice (see `cap`).
-    pub swing: Vector3<f64>,
+    pub turn_axis: Vector3<f64>,
 }
 
 /// A surface of the ring against one of the ball.
 #[derive(Clone, Copy)]
-pub(in crate::contact) struct ElementPair<D> {
-    pub feature: RingElement<D>,
+pub(in crate::contact) struct SurfacePair<D> {
+    pub surface: RingSurface<D>,
     /// Drops of the ball's side.
     pub ball_drops: (D, D),
     pub tan: f64,
 }
 
-impl<D: Depth> ElementPair<D> {
-    fn smooth(feature: RingElement<D>, node: &Node) -> Self {
+impl<D: Depth> SurfacePair<D> {
+    fn smooth(surface: RingSurface<D>, node: &Node) -> Self {
         Self {
-            feature,
+            surface,
             ball_drops: (D::new(0.0, 0.0, 0.0), D::NEVER),
             tan: node.zeta / node.rho,
         }
@@ -77,7 +77,7 @@ impl<D: Depth> ElementPair<D> {
 
     /// The four drops of the law's argument and their signs; an infinite one does not count.
     pub fn terms(&self) -> [(f64, D); 4] {
-        let ((a, b), (p, q)) = (self.feature.drops, self.ball_drops);
+        let ((a, b), (p, q)) = (self.surface.drops, self.ball_drops);
         [(1.0, a + p), (-1.0, a + q), (-1.0, b + p), (1.0, b + q)]
     }
 }
@@ -105,7 +105,7 @@ impl Facing<'_> {
             count: 0,
         };
         let share = self.drop_share();
-        self.element_pairs(node, &mut |met: &ElementPair<f64>| {
+        self.surface_pairs(node, &mut |met: &SurfacePair<f64>| {
             for (_, drop) in met.terms() {
                 if drop.value() < f64::INFINITY && found.count < MOST_KEPT {
                     found.values[found.count] = node.depth - share * drop.value();
@@ -118,8 +118,8 @@ impl Facing<'_> {
 
     pub(super) fn ring_arc(&self, node: &Node) -> Option<Arc> {
         if self.ring_open {
-            let toward = Toward::race(self.on_ring);
-            absent(self.race_side.defects, &node.on_ring(), &toward)
+            let direction = ContactDirection::race(self.on_ring);
+            absent(self.race_side.defects, &node.on_ring(), &direction)
         } else {
             None
         }
@@ -137,8 +137,8 @@ impl Facing<'_> {
     }
 
     /// A direction in which the ball is met.
-    fn out_of_ball(&self, direction: V2) -> Toward<'_> {
-        Toward::ball(self.b, direction, direction.y.atan2(direction.x))
+    fn out_of_ball(&self, direction: V2) -> ContactDirection<'_> {
+        ContactDirection::ball(self.b, direction, direction.y.atan2(direction.x))
     }
 
     /// Places ζ between which caps of the ball have taken away what would meet the race.
@@ -151,14 +151,14 @@ impl Facing<'_> {
     }
 
     /// All pairs of surfaces that stand against each other at a slice.
-    pub(in crate::contact) fn element_pairs<D: Depth>(
+    pub(in crate::contact) fn surface_pairs<D: Depth>(
         &self,
         node: &Node,
-        visit: &mut impl FnMut(&ElementPair<D>),
+        visit: &mut impl FnMut(&SurfacePair<D>),
     ) {
         let race = self.race_element(node);
         let Some(arc) = self.ring_arc(node) else {
-            self.feature(node, &race, visit);
+            self.surface(node, &race, visit);
             return;
         };
         let [first, second] = [arc.low, arc.high].map(|edge| self.ring_circle(node, &edge, 0.0));
@@ -166,23 +166,23 @@ impl Facing<'_> {
         let both = drops[0] + drops[1];
         for (edge, drop) in [first, second].into_iter().zip(drops) {
             let drops = (drop, both);
-            self.feature(node, &RingElement { drops, ..edge }, visit);
+            self.surface(node, &RingSurface { drops, ..edge }, visit);
         }
         let drops = (both, D::NEVER);
-        self.feature(node, &RingElement { drops, ..race }, visit);
-        let toward = Toward::race(self.on_ring);
-        for (edge, depth) in floors(self.race_side.defects, node.on_ring(), toward, &arc) {
+        self.surface(node, &RingSurface { drops, ..race }, visit);
+        let direction = ContactDirection::race(self.on_ring);
+        for (edge, depth) in floors(self.race_side.defects, node.on_ring(), direction, &arc) {
             let circle = self.ring_circle(node, &edge, depth);
             let drops = (race.s - circle.s, D::NEVER);
-            self.feature(node, &RingElement { drops, ..circle }, visit);
+            self.surface(node, &RingSurface { drops, ..circle }, visit);
         }
     }
 
     /// The race, whole.
-    fn race_element<D: Depth>(&self, node: &Node) -> RingElement<D> {
+    fn race_element<D: Depth>(&self, node: &Node) -> RingSurface<D> {
         let sigma = self.race.sigma;
-        RingElement {
-            shape: FeatureShape::Race,
+        RingSurface {
+            shape: SurfaceKind::Race,
             n_e: self.n * sigma,
             s: D::new(
                 self.section.penetration(node.rho, node.groove) - self.raised_in_plane(),
@@ -192,7 +192,7 @@ impl Facing<'_> {
             drops: (D::new(0.0, 0.0, 0.0), D::NEVER),
             arm_ring: self.n * (node.torus_radius + self.raise.height),
             wave_slope: self.wave_slope(self.n, self.distance, self.raise.slope, V2::zeros()),
-            swing: WITH_RING_AXIS,
+            turn_axis: WITH_RING_AXIS,
         }
     }
 
@@ -214,47 +214,47 @@ impl Facing<'_> {
         WaveSlope { force, arm }
     }
 
-    /// A feature of the ring against the ball, smooth or not.
-    fn feature<D: Depth>(
+    /// A surface of the ring against the ball, smooth or not.
+    fn surface<D: Depth>(
         &self,
         node: &Node,
-        feature: &RingElement<D>,
-        visit: &mut impl FnMut(&ElementPair<D>),
+        surface: &RingSurface<D>,
+        visit: &mut impl FnMut(&SurfacePair<D>),
     ) {
-        let Some(arc) = self.ball_arc(node, feature.n_e) else {
-            visit(&ElementPair::smooth(*feature, node));
+        let Some(arc) = self.ball_arc(node, surface.n_e) else {
+            visit(&SurfacePair::smooth(*surface, node));
             return;
         };
         if arc.is_all() {
             return;
         }
         let meet = |edge: &Edge, depth: f64| {
-            let (met, tan) = self.ball_circle(node, feature, edge, depth);
-            (feature.s - met.s, met, tan)
+            let (met, tan) = self.ball_circle(node, surface, edge, depth);
+            (surface.s - met.s, met, tan)
         };
         let (drop_1, first, tan_1) = meet(&arc.low, 0.0);
         let (drop_2, second, tan_2) = meet(&arc.high, 0.0);
         let both = drop_1 + drop_2;
-        visit(&ElementPair {
-            feature: first,
+        visit(&SurfacePair {
+            surface: first,
             ball_drops: (drop_1, both),
             tan: tan_1,
         });
-        visit(&ElementPair {
-            feature: second,
+        visit(&SurfacePair {
+            surface: second,
             ball_drops: (drop_2, both),
             tan: tan_2,
         });
         let ball_drops = (both, D::NEVER);
-        visit(&ElementPair {
+        visit(&SurfacePair {
             ball_drops,
-            ..ElementPair::smooth(*feature, node)
+            ..SurfacePair::smooth(*surface, node)
         });
-        let toward = self.out_of_ball(feature.n_e);
-        for (edge, depth) in floors(self.ball_side.defects, node.on_ball(), toward, &arc) {
+        let direction = self.out_of_ball(surface.n_e);
+        for (edge, depth) in floors(self.ball_side.defects, node.on_ball(), direction, &arc) {
             let (drop, circle, tan) = meet(&edge, depth);
-            visit(&ElementPair {
-                feature: circle,
+            visit(&SurfacePair {
+                surface: circle,
                 ball_drops: (drop, D::NEVER),
                 tan,
             });
