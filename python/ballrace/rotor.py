@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import inspect
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +30,9 @@ if TYPE_CHECKING:
     from .scene import Scene
 
 __all__ = ["StiffnessTable", "stiffness_table"]
+
+RossAxis = Literal["speed", "frequency"]
+"""What a ``BearingElement`` of ROSS calls the speed of the rotor: from 3 on, and before."""
 
 _AXES = ("x", "y", "z", "a", "b")
 """Names of directions in columns: a and b are the tilts about x and y."""
@@ -96,7 +100,7 @@ class StiffnessTable:
         """C with the rotation about z, which the bearing leaves free: shape (n_loads, n_speeds, 6, 6)."""
         return _with_rotation(self.damping)
 
-    def ross_arguments(self, load: int = 0) -> dict[str, Any]:
+    def ross_arguments(self, load: int = 0, *, axis: RossAxis = "speed") -> dict[str, Any]:
         """Return the arguments of a ``BearingElement`` of ROSS, beside its node.
 
         ROSS has x, y and z of a bearing, x and y coupled; it does not include tilts and the coupling of z with x
@@ -106,18 +110,23 @@ class StiffnessTable:
         ----------
         load : int
             The load case, from 0.
+        axis : {"speed", "frequency"}
+            Name of the argument for the speeds. ROSS 3 calls the rotor's speed ``speed``, and its ``frequency`` is
+            that of the whirl, along which these matrices do not change; ROSS 2 has ``frequency`` for the speed.
 
         Returns
         -------
         dict
             ``kxx``, ``kxy``, …, ``kzz`` [N/m] and ``cxx``, …, ``czz`` [N s/m], each of shape (n_speeds,), and
-            ``frequency``, the speeds [rad/s], which have to rise; of a single speed numbers without it.
+            the speeds [rad/s] by the name of ``axis``, which have to rise; of a single speed numbers without it.
 
         Raises
         ------
         SceneError
-            There is no such load case, or the speeds do not rise.
+            There is no such load case or axis, or the speeds do not rise.
         """
+        if axis not in get_args(RossAxis):
+            raise SceneError("axis", repr(axis), " or ".join(map(repr, get_args(RossAxis))))
         load = counted("load", load, 0, len(self.stiffness) - 1)
         if np.any(np.diff(self.speeds) <= 0.0):
             raise SceneError("speeds_rpm", f"{self.speeds.size} speeds", "rising, for ROSS")
@@ -126,10 +135,10 @@ class StiffnessTable:
             found |= {f"{letter}{name}": matrices[:, i, j] for name, (i, j) in _ROSS.items()}
         if self.speeds.size == 1:
             return {name: float(values[0]) for name, values in found.items()}
-        return {**found, "frequency": self.speeds}
+        return {**found, axis: self.speeds}
 
     def to_ross(self, n: int, *, load: int = 0, **more: Any) -> Any:
-        """Return a ``BearingElement`` of ROSS (package ross-rotordynamics, 2.3).
+        """Return a ``BearingElement`` of ROSS (package ross-rotordynamics, 2.3 or 3).
 
         Parameters
         ----------
@@ -147,8 +156,10 @@ class StiffnessTable:
         SceneError
             As :meth:`ross_arguments`.
         """
-        arguments = self.ross_arguments(load)
         ross = needed("ross", "a bearing element of ROSS", extra=None, package="ross-rotordynamics")
+        # By what it takes: since 3.0 an array along `frequency` is interpolated along that of the whirl.
+        taken = inspect.signature(ross.BearingElement).parameters
+        arguments = self.ross_arguments(load, axis="speed" if "speed" in taken else "frequency")
         return ross.BearingElement(n=n, **arguments, **more)
 
     def to_polars(self) -> pl.DataFrame:
