@@ -17,6 +17,7 @@ import pytest
 from scipy.special import ellipe, ellipkm1
 
 import ballrace as br
+from ballrace.bearings import clearance
 from ballrace.bearings.clearance import radial_clearance
 from ballrace.bearings.entry import Kind
 from ballrace.bearings.estimate import BALLS
@@ -408,6 +409,14 @@ def test_clearance_is_the_middle_of_its_class() -> None:
     assert br.bearing("7205 C").rows[0].clearance == 0.0
     assert br.bearing("7205B/C3").rows[0].clearance == 0.0
     assert radial_clearance(120e-3, "C5") == pytest.approx(115e-6)
+    assert radial_clearance(130e-3, "CN") == pytest.approx(33e-6)
+    assert radial_clearance(500e-3, "C3") == pytest.approx(235e-6)
+    with pytest.raises(br.SceneError, match="ends at a bore of 500 mm"):
+        radial_clearance(501e-3, "CN")
+    # Classes lie above each other and grow with the bore, from one line of the table to the next.
+    lines = np.array([limits for _, limits in clearance._TABLE])
+    assert np.all(np.diff(lines.mean(axis=2), axis=1) > 0.0)
+    assert np.all(np.diff(lines, axis=0) >= 0.0)
     with pytest.raises(br.SceneError, match="'C3', as in '6205/C3', or absent"):
         br.bearing("6205/C3", clearance="C2")
     assert radial_clearance(10e-3, "CN") == pytest.approx(7.5e-6)
