@@ -156,8 +156,17 @@ class Equilibrium:
     films: tuple[RaceFilm, ...] = ()
     warnings: tuple[str, ...] = ()
 
+    @property
+    def loaded(self) -> NDArray[np.bool_]:
+        """Which balls count as loaded, shape (n_balls,): above a tenth of the largest load on the inner race.
+
+        At speed every ball is thrown against the outer race, which does not count.
+        """
+        rule: NDArray[np.bool_] = self.inner_load > max(0.1 * float(self.inner_load.max()), 0.0)
+        return rule
+
     def __repr__(self) -> str:
-        loaded = int(np.count_nonzero(self.outer_load > 0.0))
+        loaded = int(np.count_nonzero(self.loaded))
         return (
             f"<Equilibrium: {loaded} of {self.ball.size} balls loaded, "
             f"largest load {self.outer_load.max():.1f} N, after {self.iterations} iterations>"

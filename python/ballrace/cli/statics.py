@@ -74,7 +74,11 @@ def _equilibrium(options: argparse.Namespace) -> None:
         ]
         print_table(["equivalent load", "outer N", "inner N"], lines)
         print()
-        lives = {"ISO 281, L10": life.basic, "ISO/TS 16281, L10r": life.reference}
+        lives = {
+            "ISO 281, L10": life.basic,
+            "ISO/TS 16281, L10r": life.reference,
+            "the same, one cage position": life.one_position,
+        }
         if life.modified is not None:
             lives["with its oil, L10mr"] = life.modified
         lines = [[name, *_lasts(life, turns)] for name, turns in lives.items()]
@@ -128,6 +132,7 @@ def _equilibrium_json(options: argparse.Namespace, scene: Scene, eq: Equilibrium
         document["rating_life"] = {
             "basic": life.basic,
             "reference": life.reference,
+            "one_position": life.one_position,
             "modified": life.modified,
         }
     print(json.dumps(document, indent=2))

@@ -33,13 +33,12 @@ _FAULTS = ("shaft", "FTF", "BPFO", "BPFI", "2·BSF")
 def numbers(live: Live) -> dict[str, str]:
     """Return what is solved by its names, with units."""
     eq, tangent = live.equilibrium, live.stiffness
-    # At speed every ball is thrown against the outer race.
-    loaded = int(np.count_nonzero(np.minimum(eq.outer_load, eq.inner_load) > 0.0))
+    loaded = int(np.count_nonzero(eq.loaded))
     angles = np.degrees(np.abs(eq.outer_angle[eq.outer_load > 0.0]))
     soft, stiff = 1e-6 * tangent.radial
     moved = ", ".join(f"{1e6 * each:z.1f}" for each in eq.inner - eq.outer)
     found = {
-        "balls under load": f"{loaded} of {eq.ball.size}",
+        "balls loaded": f"{loaded} of {eq.ball.size}",
         "largest load": f"{max(eq.outer_load.max(), eq.inner_load.max()):.0f} N",
         "contact angles": f"{angles.min():.1f} to {angles.max():.1f}°" if angles.size else "–",
         "largest pressure, outer race": f"{1e-6 * eq.outer_pressure.max():.0f} MPa",
@@ -76,6 +75,7 @@ def _life(life: RatingLife | None, why: str) -> dict[str, str]:
     lives = {
         "L₁₀, ISO 281": life.basic,
         "L₁₀ᵣ, ISO/TS 16281": life.reference,
+        "L₁₀ᵣ at one cage position": life.one_position,
         "L₁₀ₘᵣ, with its oil": life.modified,
     }
     return {name: words.lasting(life, turns) for name, turns in lives.items() if turns is not None}

@@ -23,15 +23,16 @@ from ..scene.scene import checked_scene
 from ..scene.turning import relative_speed
 from ..statics import LoadDistribution, load_distribution
 from .life_factor import Contamination, LifeFactor, check_contamination, life_factor
-from .load_rating import equivalent_load, race_ratings, row_rating, together
+from .load_rating import equivalent_load, race_ratings, row_rating, static_rating, together
 
 if TYPE_CHECKING:
+    from ..bearings import Bearing
     from ..scene import Scene
 
 __all__ = ["RatingLife", "rating_life"]
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class RatingLife:
     """Rating life at 90 % reliability.
 
@@ -49,7 +50,11 @@ class RatingLife:
     outer_equivalent, inner_equivalent : tuple of float
         Equivalent loads of each row's races, Q_ee and Q_ei [N].
     reference : float
-        Basic reference rating life L₁₀ᵣ after ISO/TS 16281 [turns]; infinite without load.
+        Basic reference rating life L₁₀ᵣ after ISO/TS 16281 [turns], loads averaged over positions of the cage;
+        infinite without load.
+    one_position : float
+        The same with the cage at the scene's start angles only [turns], as programs compute it that place a ball
+        on the load line. With few balls the mean departs from it by −3 to +15 %.
     equivalent_load : float or None
         Dynamic equivalent load P after ISO 281 [N]; None where the bearing is no single deep groove row, or
         nothing loads the inner ring.
@@ -71,15 +76,42 @@ class RatingLife:
     outer_equivalent: tuple[float, ...]
     inner_equivalent: tuple[float, ...]
     reference: float
+    one_position: float
     equivalent_load: float | None
     basic: float | None
     speed: float | None
     modified: float | None = None
     factor: LifeFactor | None = None
 
-    def hours(self, turns: float) -> float | None:
-        """Return how long a number of turns takes at the scene's speed [h]; None where it changes or is 0."""
-        return turns * 2.0 * math.pi / abs(self.speed) / 3600.0 if self.speed else None
+    def hours(self, turns: float | None) -> float | None:
+        """Return how long a number of turns takes at the scene's speed [h].
+
+        None where the speed changes or is 0, and of a life that there is not.
+        """
+        if turns is None or not self.speed:
+            return None
+        return turns * 2.0 * math.pi / abs(self.speed) / 3600.0
+
+    def __repr__(self) -> str:
+        """Return the three lives in hours, or why there is none."""
+        basic = (
+            self._lasting(self.basic)
+            if self.basic is not None
+            else "none: P of ISO 281 is that of a single deep groove row under a load on its inner ring"
+        )
+        reference = f"{self._lasting(self.reference)}, {self._lasting(self.one_position)} by one cage position"
+        if self.modified is None or self.factor is None:
+            modified = "none: it needs an oil in every row, a speed and a load"
+        else:
+            ratio = "ν/ν₁" if self.factor.kappa_from == "viscosity" else "λ^1.3 of the film"
+            of = f"a_ISO {self.factor.value:.3g}, κ {self.factor.kappa:.2f} = {ratio}"
+            modified = f"{self._lasting(self.modified)} ({of})"
+        return f"<RatingLife: L10 {basic}; L10r {reference}; L10mr {modified}>"
+
+    def _lasting(self, turns: float) -> str:
+        """Return a life in hours, or in turns where no speed says how long they take."""
+        hours = self.hours(turns)
+        return f"{turns:.4g} turns" if hours is None else f"{hours:.4g} h"
 
 
 _LIGHT = 0.02
@@ -94,6 +126,7 @@ class _State:
     loads: LoadDistribution | None  # None: too light for an equilibrium
     equivalent: float | None
     reference: float
+    one_position: float
     factor: LifeFactor | None
 
 
@@ -155,6 +188,8 @@ def rating_life(
     >>> found = br.rating_life(oiled, contamination="slight")
     >>> round(found.factor.kappa, 1), found.factor.cleanliness, round(found.factor.value, 1)
     (2.2, 0.4, 5.4)
+    >>> found
+    <RatingLife: L10>
     """
     healthy = replace(checked_scene(scene), defects={})
     if rating is not None:
@@ -182,6 +217,7 @@ def rating_life(
                 rating=value,
                 ratings=ratings,
                 contamination=contamination,
+                static_rating=_static_rating(healthy),
                 peak=peak,
             )
             for share, each in cycle
@@ -205,6 +241,7 @@ def rating_life(
         outer_equivalent=outer,
         inner_equivalent=inner,
         reference=_miner([(state.share, state.reference) for state in states]),
+        one_position=_miner([(state.share, state.one_position) for state in states]),
         equivalent_load=equivalent,
         basic=1e6 * (value / equivalent) ** 3 if equivalent else None,
         speed=relative_speed(healthy),
@@ -242,32 +279,45 @@ def _state(
     rating: float,
     ratings: list[tuple[float, float]],
     contamination: Contamination | float,
+    static_rating: float,
     peak: float,
 ) -> _State:
     equivalent = equivalent_load(scene)
     try:
         loads = around or load_distribution(scene)
+        once = load_distribution(scene, positions=1)
     except EquilibriumError:
         # Where a load crosses zero, nothing may hold a ring with clearance; the balls then carry next to nothing.
         if _force(scene) > _LIGHT * peak or scene.moments:
             raise
         return _State(
-            share=share, loads=None, equivalent=equivalent, reference=math.inf, factor=None
+            share=share,
+            loads=None,
+            equivalent=equivalent,
+            reference=math.inf,
+            one_position=math.inf,
+            factor=None,
         )
-    damage = sum(
-        (loads.outer_equivalent[k] / of_outer) ** (10.0 / 3.0)
-        + (loads.inner_equivalent[k] / of_inner) ** (10.0 / 3.0)
-        for k, (of_outer, of_inner) in enumerate(ratings)
-    )
-    reference = 1e6 * float(damage) ** -0.9 if damage > 0.0 else math.inf
+    reference = _reference(loads, ratings)
     load = rating * (1e6 / reference) ** (1.0 / 3.0)
     return _State(
         share=share,
         loads=loads,
         equivalent=equivalent,
         reference=reference,
-        factor=life_factor(scene, load, contamination) if load > 0.0 else None,
+        one_position=_reference(once, ratings),
+        factor=life_factor(scene, load, contamination, static_rating) if load > 0.0 else None,
     )
+
+
+def _reference(loads: LoadDistribution, ratings: list[tuple[float, float]]) -> float:
+    """Return L₁₀ᵣ of the races' equivalent loads [turns]."""
+    damage = sum(
+        (loads.outer_equivalent[k] / of_outer) ** (10.0 / 3.0)
+        + (loads.inner_equivalent[k] / of_inner) ** (10.0 / 3.0)
+        for k, (of_outer, of_inner) in enumerate(ratings)
+    )
+    return 1e6 * float(damage) ** -0.9 if damage > 0.0 else math.inf
 
 
 def _force(scene: Scene) -> float:
@@ -305,14 +355,34 @@ def _mean_load(loads: list[tuple[float, float | None]]) -> float | None:
 
 
 def _rating(scene: Scene) -> tuple[float, str]:
+    """Return C [N], and where it comes from."""
+    known = _known(scene)
+    if known is not None:
+        return known.dynamic_rating, f"catalogue: {known.sources.ratings}"
+    return together([row_rating(row) for row in scene.rows]), "formula of ISO 281"
+
+
+def _static_rating(scene: Scene) -> float:
+    """Return C₀ [N], of the catalogue or by the formula of ISO 76."""
+    known = _known(scene)
+    if known is not None:
+        return known.static_rating
+    return sum(
+        static_rating(row.ball_count, row.ball_diameter, row.pitch_diameter, row.contact_angle)
+        for row in scene.rows
+    )
+
+
+def _known(scene: Scene) -> Bearing | None:
+    """Return the bearing of the catalogue with the scene's name, if its balls are the scene's."""
     row = scene.rows[0]
     # By its designation alone: a scene may have any name.
     known = catalogue[scene.name] if scene.name in tuple(catalogue) else None
-    same = known is not None and (known.ball_count, known.ball_diameter, known.pitch_diameter) == (
+    if known is None or len(scene.rows) != known.row_count:
+        return None
+    same = (known.ball_count, known.ball_diameter, known.pitch_diameter) == (
         row.ball_count,
         row.ball_diameter,
         row.pitch_diameter,
     )
-    if known is not None and same and len(scene.rows) == known.row_count:
-        return known.dynamic_rating, f"catalogue: {known.sources.ratings}"
-    return together([row_rating(row) for row in scene.rows]), "formula of ISO 281"
+    return known if same else None

@@ -76,11 +76,17 @@ def _add_pressures(page: Page, eq: Equilibrium, rows: int) -> None:
                 else "–"
             )
             pressure = 1e-6 * float(getattr(eq, f"{race}_pressure")[own].max())
-            loaded = f"{np.count_nonzero(load > 0.0)} of {load.size}"
+            loaded = f"{np.count_nonzero(eq.loaded[own])} of {load.size}"
             cells = [loaded, f"{load.max():.0f}", f"{pressure:.0f}", spread]
             table.append([f"row {row}, {race} race", *cells])
     page.table(
-        ["contacts", "loaded", "largest load, N", "largest Hertz pressure, MPa", "contact angles"],
+        [
+            "contacts",
+            "balls loaded",
+            "largest load, N",
+            "largest Hertz pressure, MPa",
+            "contact angles",
+        ],
         table,
     )
     page.text("The static load rating of ball bearings (ISO 76) stands for a pressure of 4200 MPa.")
@@ -95,12 +101,13 @@ def _add_life(page: Page, scene: Scene, around: LoadDistribution) -> None:
     page.facts(_life(life))
     page.text(
         "Lives are of the bearing without its defects, at 90 % reliability. ISO 281 takes one equivalent load; "
-        "ISO/TS 16281 takes the load of every ball, so clearance and contact angles count. Loads that change are "
-        "summed over their period (Miner's rule). "
+        "ISO/TS 16281 takes the load of every ball, so clearance and contact angles count, here in the mean over "
+        "a turn of the cage; programs that place a ball on the load line have the life at one place of it. Loads "
+        "that change are summed over their period (Miner's rule). "
         + (
             "No oil is known: lubrication and contamination (a_ISO of ISO 281) are left out."
             if life.factor is None
-            else "The modified life knows the oil's film, and takes its cleanliness for normal."
+            else "The modified life knows the oil's viscosity, and takes its cleanliness for normal."
         )
     )
 
@@ -113,7 +120,11 @@ def _life(life: RatingLife) -> list[tuple[str, str]]:
     entries.append(
         ("Basic reference rating life L₁₀ᵣ, ISO/TS 16281", words.lasting(life, life.reference))
     )
+    entries.append(
+        ("The same with the cage at one place only", words.lasting(life, life.one_position))
+    )
     if life.modified is not None and life.factor is not None:
-        of = f"a_ISO {life.factor.value:.2g}, κ {life.factor.kappa:.2g}"
+        ratio = "ν/ν₁" if life.factor.kappa_from == "viscosity" else "λ^1.3"
+        of = f"a_ISO {life.factor.value:.2g}, κ {life.factor.kappa:.2g} = {ratio}"
         entries.append((f"Modified life L₁₀ₘᵣ, {of}", words.lasting(life, life.modified)))
     return entries

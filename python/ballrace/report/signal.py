@@ -132,4 +132,4 @@ def add_features(page: Page, out: Signals, names: Sequence[str]) -> None:
 def _with_error(found: Mapping[str, float | None], name: str) -> str:
     """Return a feature, with its standard error where there is one."""
     error = found.get(f"{name}_se")
-    return words.number(found.get(name)) + ("" if error is None else f" ± {words.number(error, 2)}")
+    return words.with_error(found.get(name), error)

@@ -34,6 +34,26 @@ def number(value: float | None, digits: int = 4) -> str:
     return f"{value:.{digits}g}".replace("-", "−")
 
 
+def with_error(value: float | None, error: float | None) -> str:
+    """Return a number with its standard error, both to the second digit of the error and in one notation.
+
+    Examples
+    --------
+    >>> with_error(597.64, 131.0), with_error(0.031415, 0.00027), with_error(3.0e9, 2.0e7), with_error(1.5, None)
+    ('600 ± 130', '0.03141 ± 0.00027', '(3.000 ± 0.020)e+09', '1.5')
+    """
+    if value is None or error is None or math.isnan(value) or not 0.0 < error < math.inf:
+        return number(value) + ("" if error is None else f" ± {number(error, 2)}")
+    power = math.floor(math.log10(max(abs(value), error)))
+    digits = 1 - math.floor(math.log10(error))
+    if -4 <= power < 6:
+        both = (f"{round(each, digits):.{max(digits, 0)}f}" for each in (value, error))
+        return " ± ".join(both).replace("-", "−")
+    value, error = value / 10.0**power, error / 10.0**power
+    places = max(digits + power, 0)
+    return f"({value:.{places}f} ± {error:.{places}f})e{power:+03d}".replace("-", "−")
+
+
 def large(value: float) -> str:
     """Return a large number with thin spaces between thousands.
 
