@@ -78,9 +78,9 @@ pub use signals::{
 pub use simd::{Distrust, InstructionSet, UnknownInstructionSet};
 pub use statics::start::{Start, start};
 pub use statics::{
-    BallEquilibrium, ContactEquilibrium, DynamicCoefficients, Equilibrium, EquivalentLoads,
-    LoadDistribution, RaceControl, Stiffness, compile, dynamic_coefficients, equilibrium,
-    equilibrium_under, load_distribution, stiffness,
+    AxisHeld, BallEquilibrium, ContactEquilibrium, DynamicCoefficients, Equilibrium,
+    EquivalentLoads, LoadDistribution, RaceControl, Stiffness, axis_held, compile,
+    dynamic_coefficients, equilibrium, equilibrium_under, load_distribution, stiffness,
 };
 
 /// Interface of the bindings for Python (`src/python`) and the FMU (`fmu`) beside the public one. No other program should use it: it changes without notice.

@@ -378,6 +378,31 @@ def films(ax: Axes) -> None:
     ax.set_xlim(25.0, None)
 
 
+def cages(ax: Axes) -> None:
+    """Draw how fast the cage of a fast angular contact bearing goes round over its thrust, dry and in oil."""
+    thrusts = np.geomspace(5.0, 8000.0, 33)
+    row = br.bearing("7208B", speed_rpm=10_000.0).rows[0]
+    gamma = row.ball_diameter * np.cos(row.contact_angle) / row.pitch_diameter
+    orbit = 0.5 * (1.0 - gamma) * 10_000.0 * np.pi / 30.0
+    mass = 7850.0 * np.pi / 6.0 * row.ball_diameter**3
+    ten = 10.0 * row.ball_count * mass * orbit**2 * row.pitch_diameter / 2.0
+    for oil, colour in ((None, RED), ("vg68", BLUE)):
+        more = {} if oil is None else {"lubricant": oil, "temperature_c": 70.0}
+        made = (
+            br.bearing("7208B", radial_load=0.0, axial_load=f, speed_rpm=10_000.0, **more)
+            for f in thrusts
+        )
+        found = [br.fault_frequencies(scene.replace({"spin": "free"})).orders.ftf for scene in made]
+        ax.plot(thrusts, found, color=colour, label="dry" if oil is None else "oil, VG 68 at 70 °C")
+    ax.axhline(0.5 * (1.0 - gamma), color=EDGE, lw=0.8)
+    ax.text(5.0, 0.5 * (1.0 - gamma), "rolling", color=EDGE, va="bottom")
+    ax.axvline(ten, color=EDGE, ls="--", lw=0.8)
+    ax.text(ten, 0.05, "ten centrifugal forces a ball ", color=EDGE, ha="right")
+    ax.set_xscale("log")
+    ax.legend(frameon=False)
+    labelled(ax, "7208B at 10 000 rev/min", "thrust [N]", "turns of the cage a turn")
+
+
 def reliability(ax: Axes) -> None:
     """Draw shares of damaged parts over the chances by the fit, of bearings that the fit did not see."""
     from verdict_fit import judged, ratios, regression
@@ -447,5 +472,6 @@ if __name__ == "__main__":
     save("slices", 6.0, 4.6, slices)
     save("spectrum", 8.0, 3.0, spectrum)
     save("laws", 11.0, 3.4, approaches, frictions, films)
+    save("cages", 7.0, 3.6, cages)
     save("size", 9.0, 3.6, reliability, widths)
     save("defect", 10.0, 4.4, edges, place)

@@ -20,11 +20,11 @@ use crate::dynamics::Dynamics;
 use crate::model::{Model, Placed, Race};
 use crate::reduction::{Obstacle, Omission, Reduction};
 use crate::run;
-use crate::scene::{Defect, Doubt, Scene, Surface};
+use crate::scene::{Defect, Doubt, Scene, Spin, Surface};
 use crate::signals::touched::{MostLoaded, Touched, compiled, is_there};
 use crate::statics::compile;
 use crate::statics::start::{Start, start};
-use crate::statics::{DefectPasses, describe, place};
+use crate::statics::{AxisHeld, DefectPasses, axis_doubt, axis_held, describe, place};
 
 pub use cost::Cost;
 pub use law::LawExplanation;
@@ -74,6 +74,10 @@ pub struct Explanation {
     /// Places of defects, and what contacts carry there at the healthy bearing's equilibrium: over a turn of
     /// the inner race or the ball past all balls; of one on the outer race with a ball at its angle.
     pub defects: Vec<Touched>,
+    /// Spin of the balls.
+    pub spin: Spin,
+    /// Changes at rest by holding the balls' axis along the bearing's; absent where nothing turns or rubs.
+    pub axis: Option<AxisHeld>,
     /// Notes on the scene to read before believing a long run.
     pub notes: Vec<String>,
 }
@@ -120,7 +124,11 @@ pub fn explain(scene: &Scene) -> Result<Explanation> {
     interrupt::check()?;
     let at_start = describe(&model, &y0, 0);
     let defects = defects(&scene, &placed)?;
+    let axis = axis_held(&scene).ok().flatten();
+    interrupt::check()?;
     Ok(Explanation {
+        spin: scene.spin.unwrap_or_default(),
+        axis,
         name: scene.name.clone(),
         bodies: model.body_count(),
         states: model.dim(),
@@ -146,6 +154,7 @@ pub fn explain(scene: &Scene) -> Result<Explanation> {
         doubts: at_start
             .doubts
             .into_iter()
+            .chain(axis_doubt(&scene, axis))
             .chain(defects.iter().filter_map(|of| of.doubt(&scene)))
             .collect(),
         defects,
@@ -238,6 +247,9 @@ impl fmt::Display for Explanation {
         for note in &self.notes {
             writeln!(f, "  note     {note}")?;
         }
+        if let Some(axis) = &self.axis {
+            writeln!(f, "spin       {}", axis_in_words(axis, self.spin))?;
+        }
         writeln!(f, "contacts")?;
         for kind in &self.contacts {
             writeln!(
@@ -307,6 +319,25 @@ impl fmt::Display for Explanation {
             )?;
         }
         Ok(())
+    }
+}
+
+/// Spin of the balls in words, and what the other spin would give.
+fn axis_in_words(axis: &AxisHeld, spin: Spin) -> String {
+    let by = format!(
+        "orbit by {:+.2} %, loads by up to {:.2} % of the largest",
+        100.0 * axis.orbit,
+        100.0 * axis.load
+    );
+    match (spin, axis.is_same()) {
+        (Spin::Free, false) => {
+            format!("free: about the bearing's axis alone it would change the {by}")
+        }
+        (Spin::Free, true) => format!(
+            "free, with three states a ball; spin = \"axial\" would do, which changes the {by}"
+        ),
+        (Spin::Axial, true) => format!("axial: about any axis it is the same, the {by}"),
+        (Spin::Axial, false) => format!("axial, which changes the {by}; use spin = \"free\""),
     }
 }
 

@@ -40,6 +40,6 @@ mod _core {
     use super::simulation::GoingRun;
     #[pymodule_export]
     use super::statics::{
-        dynamic_coefficients, equilibrium, load_distribution, placed, rolling, stiffness,
+        axis_held, dynamic_coefficients, equilibrium, load_distribution, placed, rolling, stiffness,
     };
 }

@@ -121,7 +121,15 @@ pub(super) fn placed(py: Python<'_>, scene: &str) -> PyResult<String> {
     solved(py, scene, |scene| Ok(place(scene)?.0.to_json()))
 }
 
-/// How the rows of a scene roll: each with its mean contact angle \[rad\], the turns of its balls around and of a ball against that
+/// How much faster balls go round with their axis held than free, and by how much loads differ, as shares, and whether that is nothing;
+/// none where nothing turns or rubs.
+#[pyfunction]
+pub(super) fn axis_held(py: Python<'_>, scene: &str) -> PyResult<Option<(f64, f64, bool)>> {
+    let found = solved(py, scene, ballrace::axis_held)?;
+    Ok(found.map(|of| (of.orbit, of.load, of.is_same())))
+}
+
+/// How the rows of a scene roll, its defects left out: each with its mean contact angle \[rad\], the turns of its balls around and of a ball against that
 /// \[Hz\]; none where nothing drives a row.
 #[pyfunction]
 pub(super) fn rolling(

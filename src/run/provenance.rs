@@ -13,6 +13,7 @@ use crate::signals::kinematics::RowKinematics;
 use crate::signals::touched::Touched;
 use crate::signals::{Provenance, Sampling};
 use crate::simd::Distrust;
+use crate::statics::at_speed;
 use crate::statics::start::Start;
 
 /// A run that is done.
@@ -36,7 +37,10 @@ pub(super) fn provenance(run: &Run, done: Done<'_>) -> Provenance {
         Start::Rolling => "rolling",
         Start::State(_) => "state",
     };
+    let (axis, at_rest) = at_speed(&done.prepared.scene).unwrap_or_default();
     Provenance {
+        axis,
+        at_rest,
         version: env!("CARGO_PKG_VERSION"),
         schema: SCHEMA,
         method: method::name(solver.method).to_owned(),

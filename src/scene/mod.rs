@@ -62,7 +62,7 @@ pub use contact::{Cage, Contact, Friction, NormalLaw, Slices};
 pub use damage::{Damage, RIM};
 pub use defect::Defect;
 pub(crate) use document::interpret;
-pub(crate) use doubt::FilmJudged;
+pub(crate) use doubt::{AtSpeed, FilmJudged};
 pub use doubt::{Doubt, STATIC_PRESSURE};
 pub use fault_lines::kinematic_orders;
 pub use load::{Drive, Load, Moment, Unbalance};

@@ -15,7 +15,7 @@ use crate::dynamics::Dynamics;
 use crate::inspect;
 use crate::integrate::DenseStep;
 use crate::model::{BodyId, Model, Race, RowModel};
-use crate::statics::{RaceControl, Spacing, in_motion, steady::keep, steady::orbit};
+use crate::statics::{RaceControl, Spacing, compile, in_motion, steady::keep, steady::orbit};
 
 /// Mean speeds of a row over a run \[Hz\], all in the positive sense about z.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -210,13 +210,19 @@ pub struct RowRolling {
     pub spin: f64,
 }
 
-/// How each row rolls that is loaded, as a run starts: where friction, drag and gyroscopic moments balance; or, without friction or under
+/// How each row of the healthy bearing rolls that is loaded: a ball that rests in a defect at one place would count as if all did all
+/// the time. As a run starts: where friction, drag and gyroscopic moments balance; or, without friction or under
 /// a race's control, by the equations of section 13.5. Absent of a row whose inner
 /// contacts carry nothing, so that nothing drives it.
 ///
 /// # Errors
 /// As [`crate::start()`] from [`crate::Start::Equilibrium`].
 pub fn rolling(model: &Model, control: RaceControl) -> Result<Vec<Option<RowRolling>>> {
+    if !model.scene().defects.is_empty() {
+        let mut healthy = model.scene().clone();
+        healthy.defects.clear();
+        return rolling(&compile(&healthy)?, control);
+    }
     let control = control.on(model);
     let mut y = in_motion(model, control, Spacing::Equal)?;
     if control == RaceControl::Friction {

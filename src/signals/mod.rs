@@ -26,10 +26,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::inspect::RaceFilm;
 use crate::reduction::Omission;
-use crate::scene::{RingName, Scene};
+use crate::scene::{Doubt, RingName, Scene};
 use crate::signals::kinematics::RowKinematics;
 use crate::signals::touched::Touched;
 use crate::simd::Distrust;
+use crate::statics::AxisHeld;
 
 pub use accuracy::Accuracy;
 pub use blocks::Block;
@@ -207,6 +208,10 @@ pub struct Provenance {
     pub films: Vec<RaceFilm>,
     /// Largest step by which the method is stable and accurate in this scene \[s\]; `frequency_cap` keeps below it.
     pub step_limit: f64,
+    /// What holding the balls' axis along the bearing's changes at rest; absent where nothing turns or rubs, or without an equilibrium.
+    pub axis: Option<AxisHeld>,
+    /// What is doubtful at rest about the balls at their speed.
+    pub at_rest: Vec<Doubt>,
 }
 
 /// A signal with its name and unit.

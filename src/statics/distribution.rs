@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use serde::Serialize;
 
-use super::{BallEquilibrium, Equilibrium, doubts, equilibrium, place};
+use super::{BallEquilibrium, Equilibrium, RaceControl, doubts, place, solved};
 use crate::base::error::{Error, Result};
 use crate::base::memory;
 use crate::scene::Scene;
@@ -61,7 +61,7 @@ pub fn load_distribution(scene: &Scene, positions: usize) -> Result<LoadDistribu
     let equilibria = turn
         .iter()
         .map(|turn| {
-            let mut found = equilibrium(&turned(&scene, *turn))?;
+            let mut found = solved(&turned(&scene, *turn), RaceControl::Friction)?;
             // Those of the scene that was given: the angle of a turned one says nothing.
             found.doubts = doubts(&scene, &found);
             Ok(found)

@@ -15,6 +15,7 @@
 
 mod arms;
 mod at_rest;
+mod axis;
 mod ball;
 mod cage;
 mod coefficients;
@@ -46,9 +47,11 @@ use crate::base::interrupt;
 use crate::inspect::{self, MomentOnRing, RaceFilm};
 use crate::model::{self, Ball, BodyId, Dof, Model, Placed, Race};
 use crate::reduction::axial_places;
-use crate::scene::{Doubt, Scene};
+use crate::scene::{Doubt, Scene, Spin};
 pub(crate) use at_rest::DefectPasses;
 use at_rest::Equilibria;
+pub use axis::{AxisHeld, axis_held};
+pub(crate) use axis::{at_speed, axis_doubt};
 pub use coefficients::{DynamicCoefficients, dynamic_coefficients};
 pub use distribution::{EquivalentLoads, LoadDistribution, load_distribution};
 pub(crate) use fallen::Spacing;
@@ -192,6 +195,18 @@ pub fn equilibrium(scene: &Scene) -> Result<Equilibrium> {
 /// # Errors
 /// As [`equilibrium()`].
 pub fn equilibrium_under(scene: &Scene, control: RaceControl) -> Result<Equilibrium> {
+    let mut found = solved(scene, control)?;
+    if scene.spin != Some(Spin::Free) {
+        // Beside an equilibrium that is there the other spin may have none, of which a user did not ask.
+        let held = axis_held(scene).ok().flatten();
+        interrupt::check()?;
+        found.doubts.extend(axis_doubt(scene, held));
+    }
+    Ok(found)
+}
+
+/// The equilibrium alone, without what another spin would give.
+fn solved(scene: &Scene, control: RaceControl) -> Result<Equilibrium> {
     let model = compile(scene)?;
     Ok(solve(&model, control.on(&model))?.describe(&model))
 }
@@ -308,6 +323,7 @@ pub(crate) fn describe(model: &Model, y: &[f64], iterations: usize) -> Equilibri
         doubts: Vec::new(),
     };
     found.doubts = doubts(&model.scene, &found);
+    found.doubts.extend(axis::doubts(model, &found));
     found
 }
 
@@ -370,6 +386,12 @@ fn solve_from(mut problem: Problem, mut rings: Rings) -> Result<Solved> {
         .map(|j| problem.seed(j, &rings))
         .collect();
     let (mut state, mut iterations) = problem.balance(&mut rings, &seeds, 1.0, ON_THE_WAY)?;
+    if let Some(step) = problem.off_saddle(&state) {
+        rings += step;
+        let (found, more) = problem.balance(&mut rings, &state.balls, 1.0, ON_THE_WAY)?;
+        state = found;
+        iterations += more;
+    }
     let mut unbalanced = ON_THE_WAY;
     let mut last = f64::INFINITY;
     for _ in 0..ROUNDS {

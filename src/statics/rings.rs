@@ -266,6 +266,24 @@ impl Problem<'_> {
         step
     }
 
+    /// A step off a place where the rings balance without being stable, as on top of a single ball that carries all of a light load: along
+    /// the direction that nothing holds, a quarter of the clearance and an approach. None of a stable place.
+    pub(super) fn off_saddle(&self, state: &RingState) -> Option<Rings> {
+        if self.free.is_empty() || state.stiffness.clone().cholesky().is_some() {
+            return None;
+        }
+        let eigen = state.stiffness.clone().symmetric_eigen();
+        let weakest = eigen.eigenvectors.column(eigen.eigenvalues.imin());
+        let rows = self.model.scene.rows.iter();
+        let clearance = rows.map(|row| row.clearance.abs()).fold(0.0, f64::max);
+        let size = 0.25 * clearance + self.model.scales.approach;
+        let mut step = Rings::zeros();
+        for (a, &i) in self.free.iter().enumerate() {
+            step[i] = weakest[a] * size;
+        }
+        Some(step)
+    }
+
     /// Refuses what balances without being stable, and balls that left their groove.
     pub(super) fn check(&self, state: &RingState, rings: &Rings) -> Result<()> {
         let n = self.free.len();

@@ -5,7 +5,7 @@ them. They are of one cage position; there a tilt is linear, and the moment of t
 the tilt.
 
 SKF: κ, P_u and a of a 6309 by its calculator (4 and 0.5 kN, 1800 1/min, ν 21.6 mm²/s, e_C 0.55), and κ of
-the example of its catalogue (3000 1/min, ν 20 mm²/s). Its ν₁ is 16 % below that of ISO 281, and its P_u is C₀/23.5.
+the example of its catalogue (3000 1/min, ν 20 mm²/s). Its ν₁ is 16 % below that of ISO 281, its P_u C₀/23.5.
 """
 
 from __future__ import annotations
@@ -13,11 +13,11 @@ from __future__ import annotations
 import math
 
 import pytest
-from truth import meets
 
 import ballrace as br
 from ballrace import scene as s
 from ballrace.ratings.life_factor import _factor, rated_viscosity
+from truth import meets
 
 STEEL = s.Material(youngs_modulus=210e9, poisson_ratio=0.3)
 

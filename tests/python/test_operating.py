@@ -11,6 +11,12 @@ import pytest
 import ballrace as br
 from ballrace.scene import Coulomb, Dent, MotionProbe, Ramp, SpeedDrive, Spin, Surface, WidthProfile
 
+# Balls at the speeds of textbooks slide under little load, which is doubted.
+pytestmark = pytest.mark.filterwarnings(
+    "ignore:row ., (thrust a ball|load of the most|gyroscopic moment|contact angles)",
+    "ignore:spin = axial",
+)
+
 
 def test_of_a_name_they_are_the_published_ones() -> None:
     # Case Western Reserve University, 6205 at 1797 rev/min.
@@ -143,7 +149,8 @@ def test_fast_balls_start_as_they_go_on(name: str, spin: Spin) -> None:
 def test_a_race_that_controls_its_balls() -> None:
     """Truth: Jones, Harris: ω_c = Ω (1 − γ' cos α_i)/(1 + cos(α_i − α_o)) without pivoting on the outer race."""
     scene = br.bearing("7218B", radial_load=0.0, axial_load=17_800.0, speed_rpm=10_000.0)
-    free = replace(scene, spin="free")
+    free, held = scene, replace(scene, spin="axial")
+    assert free.spin == "free"
     eq = br.equilibrium(free, race_control="outer")
     found = br.fault_frequencies(free, race_control="outer")
     outer, inner = float(np.mean(eq.outer_angle)), float(np.mean(eq.inner_angle))
@@ -153,8 +160,8 @@ def test_a_race_that_controls_its_balls() -> None:
     # Friction lets the balls pivot on both races.
     assert br.fault_frequencies(free).orders.ftf == pytest.approx(by_outer, rel=0.02)
     # Where balls spin about z there is nothing to control.
-    axial = br.fault_frequencies(scene)
-    assert br.fault_frequencies(scene, race_control="outer") == axial
+    axial = br.fault_frequencies(held)
+    assert br.fault_frequencies(held, race_control="outer") == axial
     with pytest.raises(br.SceneError, match="race_control"):
         br.equilibrium(free, race_control="inner")  # type: ignore[arg-type]
 

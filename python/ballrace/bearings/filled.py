@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, TypeVar
 
+from .. import _core
 from .._numbers import finite
-from ..errors import SceneError
+from ..errors import EquilibriumError, SceneError
 from ..scene import (
     Cage,
     Coulomb,
@@ -15,18 +17,20 @@ from ..scene import (
     Load,
     Lubricant,
     MotionProbe,
+    Patch,
     Ring,
     Row,
     Scene,
     SpeedDrive,
+    SteepPatch,
 )
 from ..scene.defect import named_by_shape
 from ..scene.lubricant import chosen
 
 if TYPE_CHECKING:
-    from ..scene import Unbalance
+    from ..scene import Spin, Unbalance
 
-__all__ = ["filled", "named"]
+__all__ = ["filled", "named", "with_spin"]
 
 T = TypeVar("T")
 
@@ -70,7 +74,7 @@ def filled(
     if outer_rpm is not None:
         outer_rpm = finite("outer_rpm", outer_rpm, "rev/min")
     one = {named_by_shape(defects): defects} if isinstance(defects, Defect) else defects
-    return Scene(
+    scene = Scene(
         name=name,
         rows=rows,
         outer_ring=outer_ring,
@@ -84,7 +88,31 @@ def filled(
         outer_speed=None if outer_rpm is None else outer_rpm * math.pi / 30.0,
         defects=named("defects", one, Defect, _DEFECTS),
         probes={"outer": MotionProbe(body="outer"), "inner": MotionProbe(body="inner")},
-    ).validate()
+    )
+    return with_spin(scene.validate())
+
+
+def with_spin(scene: Scene) -> Scene:
+    """Return a scene whose balls spin about any axis where that matters, else about the bearing's for less.
+
+    It matters where orbit speeds or loads at rest differ by more than 0.2 %. A ball's defect that has its length
+    along the axis, as a spall of :mod:`ballrace.defects` on a ball, needs the axis held, and so does any beside a
+    ball's texture.
+    """
+    on_balls = [d for d in scene.defects.values() if d.on == "ball"]
+    rough = any(row.texture is not None and row.texture.ball > 0.0 for row in scene.rows)
+    held = any(rough or isinstance(d, Patch | SteepPatch) for d in on_balls)
+    spin: Spin | None = None if held or not _parts(scene) else "free"
+    return scene if scene.spin == spin else replace(scene, spin=spin).validate()
+
+
+def _parts(scene: Scene) -> bool:
+    """Return whether holding the balls' axis gives another answer; without an equilibrium nothing is known."""
+    try:
+        found = _core.axis_held(scene._document())
+    except EquilibriumError:
+        return False
+    return found is not None and not found[2]
 
 
 def named(field: str, given: object, kind: type[T], allowed: str) -> dict[str, T]:

@@ -9,6 +9,7 @@ from typing import Literal, get_args
 from .._arguments import knows
 from .._numbers import finite, positive
 from ..bearings import Bearing, Pedestal, bearing, catalogue
+from ..bearings.filled import with_spin
 from ..errors import SceneError
 from ..scene import Load, Scene
 from ..statics import equilibrium
@@ -102,7 +103,7 @@ def pair(
     pressed = _approach(made, preload)
     rows = tuple(replace(row, axial_preload=pressed) for row in scene.rows)
     title = f"{made.designation} {arrangement.replace('_', ' ')}"
-    return replace(scene, rows=rows, name=title).validate()
+    return with_spin(replace(scene, rows=rows, name=title).validate())
 
 
 def _thrust(made: Bearing, arrangement: Arrangement, radial: float, axial: float | None) -> float:

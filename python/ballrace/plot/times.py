@@ -179,7 +179,7 @@ def impacts(
     >>> scene = br.bearing("6205", defects=br.defects.spall(on="outer_race", width_mm=1.0))
     >>> fig = br.plot.impacts(br.simulate(scene, duration=0.03))
     >>> [trace.name for trace in fig.data]
-    ['vertical acceleration, outer ring', 'BPFO, 107.5 Hz']
+    ['vertical acceleration, outer ring', 'BPFO, 107.7 Hz']
     """
     from .._plotly import Figure, Scatter
 

@@ -9,6 +9,7 @@ mod idle;
 mod lubricant;
 mod motion;
 mod probes;
+mod speed;
 mod texture;
 mod tilt;
 mod units;
@@ -20,6 +21,7 @@ use serde::Serialize;
 use super::{Profile, Scene, TimeFunction};
 use crate::base::quantities::number;
 pub(crate) use lubricant::FilmJudged;
+pub(crate) use speed::AtSpeed;
 
 /// Largest Hertz pressure of a contact of hardened steel at the static load rating of a ball bearing \[Pa\]: it leaves a
 /// dent of a ten-thousandth of the ball diameter. ISO 76 gives it for the *centre* of the most heavily loaded contact,

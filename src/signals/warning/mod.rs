@@ -132,7 +132,8 @@ impl Signals {
             .into_iter()
             .chain(of_contacts)
             .chain(of_slip)
-            .chain(Doubt::tilt(self.stats.largest_tilt));
+            .chain(Doubt::tilt(self.stats.largest_tilt))
+            .chain(self.provenance.at_rest.iter().cloned());
         let defects = self.provenance.defects.iter();
         let doubts = doubts.chain(defects.clone().filter_map(|of| of.doubt(&self.scene)));
         let untouched = defects.filter_map(|of| not_touched(of, self.provenance.duration));
