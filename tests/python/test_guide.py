@@ -198,8 +198,8 @@ def test_the_table_of_columns_is_whole(tmp_path: Path) -> None:
     scene, columns = everything(), columns_of_the_guide()
     out = br.simulate(scene, duration=0.002)
     done = br.campaign(
-        # Standard errors want eight passes of balls.
-        [{"loads.radial.force": 800.0}], tmp_path, scene=scene, duration=0.08, keep="signals",
+        # Standard errors want eight passes of balls, lines of the cage two of its turns.
+        [{"loads.radial.force": 800.0}], tmp_path, scene=scene, duration=0.18, keep="signals",
         contact_loads=True, columns=["outer.ay"], progress=False,
     )  # fmt: skip
     done.measure(br.measuring.Chain(logger=br.measuring.Logger()))
