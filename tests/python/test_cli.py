@@ -54,6 +54,15 @@ def test_a_damaged_file_is_bad_input(capsys: pytest.CaptureFixture[str], tmp_pat
     assert "not a Parquet file" in refused(capsys, "spectrum", str(tmp_path / "bad.parquet"))
 
 
+def test_a_page_for_assistants(capsys: pytest.CaptureFixture[str]) -> None:
+    """Its code runs with the guide's; here that it names functions that exist."""
+    assert main(["skill"]) == 0
+    page = capsys.readouterr().out
+    assert page.startswith("---\nname: ballrace\ndescription: ")
+    for name in re.findall(r"br\.([a-z_]+)\(", page):
+        assert callable(getattr(br, name)), name
+
+
 def test_demo(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     assert main(["demo", "--duration", "0.004"]) == 0
     captured = capsys.readouterr()

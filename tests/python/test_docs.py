@@ -24,9 +24,11 @@ from typing import NamedTuple
 import pytest
 
 import ballrace
+import ballrace.cli
 
 ROOT = Path(__file__).parents[2]
 GUIDE = ROOT / "docs"
+SKILL = Path(ballrace.cli.__file__).with_name("skill.md")
 RECORDS = Path(os.environ.get("BALLRACE_CWRU") or ROOT.parent / "shared" / "data" / "cwru")
 MODULES = [
     m.name
@@ -54,7 +56,7 @@ def blocks(page: Path) -> Iterator[Block]:
 
 PAGES = [
     page
-    for page in [ROOT / "README.md", *sorted(GUIDE.glob("*.md"))]
+    for page in [ROOT / "README.md", SKILL, *sorted(GUIDE.glob("*.md"))]
     if any(block.language in ("python", "sh", "toml") for block in blocks(page))
 ]
 

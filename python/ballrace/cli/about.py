@@ -1,4 +1,4 @@
-"""``ballrace frequencies``, ``ballrace schema`` and ``ballrace doctor``."""
+"""``ballrace frequencies``, ``ballrace schema``, ``ballrace skill`` and ``ballrace doctor``."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import importlib.metadata
 import importlib.util
 import json
 import platform
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from .. import _core
@@ -43,6 +44,10 @@ def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:
         commands, "schema", "print the JSON Schema of scenes, for editors and other programs",
         "ballrace schema > scene.schema.json", _schema,
     )  # fmt: skip
+    added(
+        commands, "skill", "print a page that teaches assistants to use the package",
+        "ballrace skill > SKILL.md", _skill,
+    )  # fmt: skip
     added(commands, "doctor", "show what is installed, and try a run", "ballrace doctor", _doctor)
 
 
@@ -73,6 +78,11 @@ def _frequencies(options: argparse.Namespace) -> None:
     ball, pitch = 1e3 * row.ball_diameter, 1e3 * row.pitch_diameter
     print(f"{row.designation}: {row.ball_count} balls of {ball:g} mm on {pitch:g} mm")
     print_table(["", unit], [[name, f"{value:.4f}"] for name, value in values.items()])
+
+
+def _skill(options: argparse.Namespace) -> None:
+    del options
+    print(Path(__file__).with_name("skill.md").read_text(encoding="utf-8"), end="")
 
 
 def _schema(options: argparse.Namespace) -> None:
