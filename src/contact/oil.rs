@@ -62,7 +62,9 @@ impl OilForce {
         oiled: &Oiled,
         r: f64,
         moves: &Moves<f64>,
-        (sigma, apart, lever): (f64, V2, f64),
+        sigma: f64,
+        apart: V2,
+        lever: f64,
     ) -> Self {
         let d = apart.norm();
         let resistance = RollingResistance::new(moves.oil.rolling, moves, sigma, d, lever);

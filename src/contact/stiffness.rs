@@ -78,8 +78,8 @@ impl Pair {
                 .any(|defect| defect.in_reach(&direction));
         match self.meridional(&section, swell.height).filter(|_| whole) {
             Some(found) => {
-                let waves = (raise.slope, self.waves.bend(angle));
-                let mut tangent = self.in_space(&found, n, distance, waves);
+                let (slope, bend) = (raise.slope, self.waves.bend(angle));
+                let mut tangent = self.in_space(&found, n, distance, slope, bend);
                 if !ball.waves.is_round() {
                     // How this turns with the place is a ten-thousandth of the contact's stiffness.
                     let share = if self.law.cut().is_flat() {
@@ -135,7 +135,8 @@ impl Pair {
         found: &Meridional,
         n: V2,
         distance: f64,
-        (wave_slope, wave_bend): (f64, f64),
+        wave_slope: f64,
+        wave_bend: f64,
     ) -> Tangent {
         let sigma = self.race.sigma;
         let [[r_e, r_c], [a_e, a_c]] = found.slope;

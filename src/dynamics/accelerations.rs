@@ -22,7 +22,7 @@ impl Dynamics<'_> {
             return drive::acceleration(self.model, race, t);
         }
         let state = [&self.state.q, &self.state.v].map(|half| half.get(race.ring(), dof));
-        self.model.given_acceleration((race, dof), t, state)
+        self.model.given_acceleration(race, dof, t, state)
     }
 
     /// M⁻¹ F of a body. Directions that are fixed do not accelerate; a ring accelerates as prescribed where its motion or speed

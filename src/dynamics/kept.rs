@@ -49,7 +49,7 @@ impl Kept {
     }
 
     /// M⁻¹ F of what is kept; the acceleration of driven directions is left to the caller.
-    pub fn accelerate(&self, (forces, mobility): (&Table, &Table), accelerations: &mut [f64]) {
+    pub fn accelerate(&self, forces: &Table, mobility: &Table, accelerations: &mut [f64]) {
         for s in self.reduction.stretches() {
             let force = &forces.along(s.dof)[s.bodies()];
             let mobility = &mobility.along(s.dof)[s.bodies()];
@@ -59,6 +59,6 @@ impl Kept {
             }
         }
         self.rolling
-            .accelerate(&self.reduction, (forces, mobility), accelerations);
+            .accelerate(&self.reduction, forces, mobility, accelerations);
     }
 }

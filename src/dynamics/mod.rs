@@ -348,7 +348,7 @@ impl System for Dynamics<'_> {
         match &self.order {
             Order::Bodies => self.accelerate(t, accelerations),
             Order::Kept(kept) => {
-                kept.accelerate((&self.forces, &self.mobility), accelerations);
+                kept.accelerate(&self.forces, &self.mobility, accelerations);
                 for &(at, race, dof) in &kept.driven {
                     if let Some(prescribed) = self.prescribed(t, race, dof) {
                         accelerations[at] = prescribed;

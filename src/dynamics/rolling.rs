@@ -55,7 +55,8 @@ impl RollingRows {
     pub fn accelerate(
         &self,
         reduction: &Reduction,
-        (forces, mobility): (&Table, &Table),
+        forces: &Table,
+        mobility: &Table,
         accelerations: &mut [f64],
     ) {
         let mut balls = self.balls.iter();

@@ -97,8 +97,8 @@ impl SpatialWork {
             let spin = drive::acceleration(model, race, t).unwrap_or_default();
             let [places, rates] = state.tilt(race);
             let given = |i: usize| {
-                let at = (race, Dof::TILTS[i]);
-                let given = model.given_acceleration(at, t, [places[i], rates[i]]);
+                let tilt = Dof::TILTS[i];
+                let given = model.given_acceleration(race, tilt, t, [places[i], rates[i]]);
                 given.unwrap_or_default()
             };
             let prescribed = [given(0), given(1), spin];

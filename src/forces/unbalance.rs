@@ -109,7 +109,7 @@ fn on(model: &Model, t: f64, state: &State, ring: Race, others: &[f64; DOFS]) ->
     let mobility = &model.mobility[ring.ring()];
     let [place, speed] = [&state.q, &state.v].map(|half| half.of(ring.ring()));
     let along = |dof: Dof, force: f64| {
-        let given = model.given_acceleration((ring, dof), t, [place[dof], speed[dof]]);
+        let given = model.given_acceleration(ring, dof, t, [place[dof], speed[dof]]);
         given.unwrap_or(mobility[dof] * force)
     };
     let accelerate = |spin: f64| {

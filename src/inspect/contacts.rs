@@ -117,7 +117,7 @@ pub(crate) fn largest_pressure(model: &Model, y: &[f64]) -> f64 {
     let balls = 0..model.balls.len();
     let contacts = balls.flat_map(|j| Race::BOTH.map(|race| (j, race)));
     contacts
-        .map(|(j, race)| pressure(model, y, (j, race), contact(model, y, j, race).load))
+        .map(|(j, race)| pressure(model, y, j, race, contact(model, y, j, race).load))
         .fold(0.0, f64::max)
 }
 
@@ -136,7 +136,7 @@ pub(crate) fn film_slip(model: &Model, y: &[f64]) -> f64 {
 }
 
 /// Hertz pressure \[Pa\] of a ball on a race under a load \[N\]; on a gothic arch of the flank that bears more.
-pub(crate) fn pressure(model: &Model, y: &[f64], (j, race): (usize, Race), load: f64) -> f64 {
+pub(crate) fn pressure(model: &Model, y: &[f64], j: usize, race: Race, load: f64) -> f64 {
     let row = &model.rows[model.balls[j].row];
     let pair = &row.pairs[race];
     let heaviest = if pair.other_flank().is_some() {

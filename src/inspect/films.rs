@@ -55,10 +55,12 @@ impl RaceFilm {
 pub fn films(model: &Model) -> Vec<RaceFilm> {
     let rows = 0..model.rows.len();
     let races = rows.flat_map(|row| Race::BOTH.map(|race| (row, race)));
-    races.filter_map(|at| film(model, at)).collect()
+    races
+        .filter_map(|(row, race)| film(model, row, race))
+        .collect()
 }
 
-fn film(model: &Model, (row, race): (usize, Race)) -> Option<RaceFilm> {
+fn film(model: &Model, row: usize, race: Race) -> Option<RaceFilm> {
     let film = model.rows[row].pairs[race].law.film?.film;
     let (now, reference, limits) = (film.at(1.0), film.reference(), film.limits());
     Some(RaceFilm {

@@ -92,8 +92,8 @@ pub fn lubrication(model: &Model, y: &[f64], row: usize) -> Lubrication {
     let layout = model.layout();
     let speed = |race: Race| y[layout.speed_at(race.ring(), Dof::Theta)];
     let speed = speed(Race::Inner) - speed(Race::Outer);
-    let films = Race::BOTH.map(|race| film(model, (row, race), speed));
-    let [outer, inner] = Race::BOTH.map(|race| resistance(model, y, (row, race)));
+    let films = Race::BOTH.map(|race| film(model, row, race, speed));
+    let [outer, inner] = Race::BOTH.map(|race| resistance(model, y, row, race));
     let lost = |of: fn(&ContactPowers) -> f64| of(&outer.powers) + of(&inner.powers);
     let or_none = |of: fn(&FilmNow) -> f64| films.map(|now| now.as_ref().map_or(f64::NAN, of));
     Lubrication {
@@ -108,13 +108,13 @@ pub fn lubrication(model: &Model, y: &[f64], row: usize) -> Lubrication {
 }
 
 /// The film of a race while the rings turn at a speed against each other \[rad/s\].
-fn film(model: &Model, (row, race): (usize, Race), speed: f64) -> Option<FilmNow> {
+fn film(model: &Model, row: usize, race: Race, speed: f64) -> Option<FilmNow> {
     let film = model.rows[row].pairs[race].law.film?.film;
     Some(film.at(speed / film.reference().speed))
 }
 
 /// Resistance of all balls of a row on a ring.
-fn resistance(model: &Model, y: &[f64], (row, race): (usize, Race)) -> Resistance {
+fn resistance(model: &Model, y: &[f64], row: usize, race: Race) -> Resistance {
     let row = &model.rows[row];
     let mut sum = Resistance::default();
     for j in row.balls() {

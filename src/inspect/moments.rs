@@ -49,7 +49,8 @@ pub fn wrench(model: &Model, y: &[f64], race: Race) -> [f64; 6] {
 /// its centre, on the ring about its centre of mass.
 pub(crate) fn between(
     model: &Model,
-    (j, race): (usize, Race),
+    j: usize,
+    race: Race,
     ball: &Motion,
     ring: &TiltedRing,
 ) -> [Wrench; 2] {

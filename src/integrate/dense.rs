@@ -120,7 +120,7 @@ impl<'a> DenseStep<'a> {
         let half = self.y0.len() / 2;
         let (q, v) = out.split_at_mut(half.min(out.len()));
         let accelerations = [0, 1, 2, 3].map(|i| &self.k[i][half..]);
-        multistep::advance((q, v), self.y0, self.h, (theta, weights), &accelerations);
+        multistep::advance(q, v, self.y0, self.h, theta, weights, &accelerations);
     }
 }
 

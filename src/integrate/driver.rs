@@ -119,9 +119,8 @@ impl<'a> Integrator<'a> {
             .map_err(|i| not_finite(tolerance, t0, i))?;
         let given = options.fixed_step.or(options.first_step);
         made.free = given.unwrap_or_else(|| {
-            let ahead = (t0, made.stops.next());
-            let order = made.tableau.error_order;
-            first_step(system, work, &mut made.norm, ahead, made.ceiling, order)
+            let (stop, order) = (made.stops.next(), made.tableau.error_order);
+            first_step(system, work, &mut made.norm, t0, stop, made.ceiling, order)
                 .max(SMALLEST_ULPS * ulp(t0))
         });
         Ok(made)

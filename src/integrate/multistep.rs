@@ -237,10 +237,12 @@ pub(super) fn at(theta: f64, weights: &AdamsWeights) -> ([f64; NODES], [f64; NOD
 
 /// Velocities and positions after a share θ of a step `h`, from those at its beginning and accelerations.
 pub(super) fn advance(
-    (q, v): (&mut [f64], &mut [f64]),
+    q: &mut [f64],
+    v: &mut [f64],
     y: &[f64],
     h: f64,
-    (theta, weights): (f64, &AdamsWeights),
+    theta: f64,
+    weights: &AdamsWeights,
     accelerations: &[&[f64]],
 ) {
     let (positions, velocities) = y.split_at(y.len() / 2);
@@ -279,10 +281,12 @@ mod tests {
         for theta in [0.0, 0.4, 1.0] {
             let (mut q, mut v) = ([0.0], [0.0]);
             advance(
-                (&mut q, &mut v),
+                &mut q,
+                &mut v,
                 &[of_q(0.0), of_v(0.0)],
                 h,
-                (theta, &history.formulae.weights),
+                theta,
+                &history.formulae.weights,
                 &known,
             );
             assert!((q[0] - of_q(theta * h)).abs() < 1e-14);

@@ -18,7 +18,8 @@ pub(super) fn first_step<S: System>(
     system: &mut S,
     work: &mut Stepper<'_>,
     norm: &mut Norm<'_>,
-    (t, stop): (f64, Stop),
+    t: f64,
+    stop: Stop,
     ceiling: f64,
     error_order: u32,
 ) -> f64 {

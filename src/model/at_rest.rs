@@ -68,7 +68,7 @@ impl HeaviestContact {
             ball_defect(defect, geometry.ball_diameter / 2.0, &row.hertz)
         } else {
             let (pair, hertz) = (&row.pairs[self.race], &row.hertz[self.race]);
-            race_defect(defect, geometry, (pair, hertz))
+            race_defect(defect, geometry, pair, hertz)
         }
     }
 }

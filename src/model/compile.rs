@@ -38,7 +38,7 @@ pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
     let mut rows = Vec::new();
     let mut balls = Vec::new();
     for (i, row) in scene.rows.iter().enumerate() {
-        let [outer, inner] = Race::BOTH.map(|race| pair(scene, (i, row), race));
+        let [outer, inner] = Race::BOTH.map(|race| pair(scene, i, row, race));
         let ((outer, on_outer), (inner, on_inner)) = (outer?, inner?);
         rows.push(RowModel {
             first: balls.len(),
@@ -65,7 +65,7 @@ pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
                 degrees: row.ball_support.mounts(Mount::Free).map(Degree::from),
             });
             let side = BallSide {
-                defects: ball_defects(scene, (i, index), diameter / 2.0, &rows[i].hertz),
+                defects: ball_defects(scene, i, index, diameter / 2.0, &rows[i].hertz),
                 ..BallSide::whole(diameter / 2.0)
             };
             balls.push(Ball {
@@ -141,7 +141,7 @@ fn fit_nodes(model: &mut Model) {
             };
             let alike = |other: &usize| model.rows[*other].class == model.rows[row].class;
             let alike: Vec<usize> = (0..model.rows.len()).filter(alike).collect();
-            Some(Race::BOTH.map(|race| nodes::fewest(model, &alike, race, (accuracy, finer))))
+            Some(Race::BOTH.map(|race| nodes::fewest(model, &alike, race, accuracy, finer)))
         })
         .collect();
     for (row, fewest) in model.rows.iter_mut().zip(fewest) {
@@ -213,7 +213,7 @@ fn ring(scene: &Scene, ring: &scene::Ring, race: Race) -> Result<(Body, RingMode
 }
 
 /// Hertz's contact of a ball and one race.
-fn hertz(scene: &Scene, (row, race): (&Row, Race), torus: &Torus, angle: f64) -> Hertz {
+fn hertz(scene: &Scene, row: &Row, race: Race, torus: &Torus, angle: f64) -> Hertz {
     let is_own = torus.r == groove_radius(row, race);
     let own = torus.r / row.ball_diameter;
     Hertz::new(
@@ -228,22 +228,22 @@ fn hertz(scene: &Scene, (row, race): (&Row, Race), torus: &Torus, angle: f64) ->
 }
 
 /// Geometry and laws of one race (model section 2), and Hertz's contact with it.
-fn pair(scene: &Scene, (index, row): (usize, &Row), race: Race) -> Result<(Pair, Hertz)> {
+fn pair(scene: &Scene, index: usize, row: &Row, race: Race) -> Result<(Pair, Hertz)> {
     let path = format!("rows[{index}]");
     let angle = row.contact_angle;
     let (mut pair, hertz) = match geometry(&path, row, race)? {
         RaceGeometry::One(torus, shape) => {
-            let hertz = hertz(scene, (row, race), &torus, angle);
+            let hertz = hertz(scene, row, race, &torus, angle);
             let one = Pair {
                 shape,
-                ..whole(scene, row, (torus, hertz))
+                ..whole(scene, row, torus, hertz)
             };
             check_hollow(&path, &one, race)?;
             (one, hertz)
         }
         RaceGeometry::Arch(flanks, angle) => {
-            let hertz = flanks.map(|torus| hertz(scene, (row, race), &torus, angle));
-            let [low, high] = [0, 1].map(|i| whole(scene, row, (flanks[i], hertz[i])));
+            let hertz = flanks.map(|torus| hertz(scene, row, race, &torus, angle));
+            let [low, high] = [0, 1].map(|i| whole(scene, row, flanks[i], hertz[i]));
             let arch = Pair::arch([low, high], angle).ok_or_else(|| {
                 Error::scene(
                     format!("{path}.{}_arch.conformities", race.name()),
@@ -261,14 +261,14 @@ fn pair(scene: &Scene, (index, row): (usize, &Row), race: Race) -> Result<(Pair,
     let of_race = |defect: &&Defect| defect.on == surface && defect.row == index;
     let defects = scene.defects.values().filter(of_race);
     let defects: Vec<SurfaceDefect> = defects
-        .map(|d| race_defect(d, row, (&pair, &hertz)))
+        .map(|d| race_defect(d, row, &pair, &hertz))
         .collect();
     pair.change(|flank| flank.defects.clone_from(&defects));
     Ok((pair, hertz))
 }
 
 /// A race without defects and the laws of its contacts.
-fn whole(scene: &Scene, row: &Row, (torus, hertz): (Torus, Hertz)) -> Pair {
+fn whole(scene: &Scene, row: &Row, torus: Torus, hertz: Hertz) -> Pair {
     let contact = scene.contact_of(row);
     let elastic = Elastic::new(&contact.law, row.ball_diameter, hertz);
     let exponent = elastic.exponent();
@@ -311,7 +311,8 @@ fn check_hollow(path: &str, pair: &Pair, race: Race) -> Result<()> {
 
 fn ball_defects(
     scene: &Scene,
-    (row, ball): (usize, usize),
+    row: usize,
+    ball: usize,
     radius: f64,
     hertz: &[Hertz; 2],
 ) -> Vec<SurfaceDefect> {

@@ -5,11 +5,7 @@ use crate::contact::{Bed, Pair, PittedContact, SurfaceDefect};
 use crate::scene::{Defect, Row};
 
 /// A defect of a race, compiled.
-pub(crate) fn race_defect(
-    defect: &Defect,
-    row: &Row,
-    (race, hertz): (&Pair, &Hertz),
-) -> SurfaceDefect {
+pub(crate) fn race_defect(defect: &Defect, row: &Row, race: &Pair, hertz: &Hertz) -> SurfaceDefect {
     let middle = row.axial_position + offset(defect);
     let length = defect.damage.length().unwrap_or(0.0);
     let bed = Bed {
@@ -70,7 +66,7 @@ mod tests {
                 let row = &model.rows[0];
                 let defect = Defect::new(on, 0.0, length, width, 0.3e-3).at_offset(offset);
                 let pair = &row.pairs[race];
-                let defect = race_defect(&defect, &scene.rows[0], (pair, &row.hertz[race]));
+                let defect = race_defect(&defect, &scene.rows[0], pair, &row.hertz[race]);
                 let mut widest = 0.0_f64;
                 for k in 0..=1000 {
                     let z = offset + length * (f64::from(k) / 1000.0 - 0.5) * 0.999;

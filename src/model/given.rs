@@ -64,7 +64,8 @@ impl Model {
     /// Acceleration of a ring in a direction whose motion is given, from its place and speed.
     pub(crate) fn given_acceleration(
         &self,
-        (race, dof): (Race, Dof),
+        race: Race,
+        dof: Dof,
         t: f64,
         [place, speed]: [f64; 2],
     ) -> Option<f64> {

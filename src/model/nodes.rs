@@ -52,7 +52,8 @@ pub(super) fn fewest(
     model: &Model,
     rows: &[usize],
     race: Race,
-    (accuracy, finer): (f64, usize),
+    accuracy: f64,
+    finer: usize,
 ) -> ZoneSlices {
     let exponent = model.rows[rows[0]].pairs[race].law.elastic.exponent();
     let rules = |m: usize| ZoneSlices::Fitted(Rules::for_friction(m, exponent, finer));
@@ -89,7 +90,7 @@ fn worst(model: &Model, row: usize, race: Race, rules: &ZoneSlices) -> f64 {
                 .contact_angle
                 .max(pair.nominal_angle().abs())
                 + turn;
-            let (b, r) = rolling(model, (row, race), &pair, (approach, angle), ball.radius);
+            let (b, r) = rolling(model, row, race, &pair, approach, angle, ball.radius);
             let [few, exact] = [&pair, &many].map(|pair| {
                 let mut force = NodeSum::default();
                 pair.evaluate(&ball, &b, &r, &mut force);
@@ -107,9 +108,11 @@ fn worst(model: &Model, row: usize, race: Race, rules: &ZoneSlices) -> f64 {
 /// race alone.
 fn rolling(
     model: &Model,
-    (row, side): (usize, Race),
+    row: usize,
+    side: Race,
     pair: &Pair,
-    (share, angle): (f64, f64),
+    share: f64,
+    angle: f64,
     radius: f64,
 ) -> (Motion, Motion) {
     let Scales { approach, .. } = model.scales;

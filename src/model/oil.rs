@@ -29,8 +29,8 @@ impl Model {
             let (lubricant, oil) = (lubricant.clone(), Oil::new(lubricant)?);
             self.rows[row].drag = drag(geometry.ball_diameter, oil.density, lubricant.fill);
             for race in Race::BOTH {
-                self.check_profile((row, race), &lubricant)?;
-                let films = self.films((row, race), &lubricant, (&oil, loads[race]));
+                self.check_profile(row, race, &lubricant)?;
+                let films = self.films(row, race, &lubricant, &oil, loads[race]);
                 let pair = &mut self.rows[row].pairs[race];
                 let mut films = films.into_iter();
                 pair.change_each(|flank| {
@@ -64,7 +64,7 @@ impl Model {
     }
 
     /// The film on a race through points is not built.
-    fn check_profile(&self, (row, race): (usize, Race), lubricant: &Lubricant) -> Result<()> {
+    fn check_profile(&self, row: usize, race: Race, lubricant: &Lubricant) -> Result<()> {
         let pair = &self.rows[row].pairs[race];
         if !lubricant.film || !pair.is_through_points() {
             return Ok(());
@@ -82,9 +82,11 @@ impl Model {
     /// The film of a race, and of the other flank of a gothic arch.
     fn films(
         &self,
-        (row, race): (usize, Race),
+        row: usize,
+        race: Race,
         lubricant: &Lubricant,
-        (oil, load): (&Oil, f64),
+        oil: &Oil,
+        load: f64,
     ) -> Vec<Oiled> {
         let speed = self.scene.reference_speed_of(lubricant);
         let effects = Effects {

@@ -22,12 +22,7 @@ const OF_EDGE: usize = 60;
 /// The race of a row, which errors call `path`.
 pub(super) fn geometry(path: &str, row: &Row, race: Race) -> Result<RaceGeometry> {
     let side = f64::from(row.side);
-    let nominal = torus(
-        row,
-        race,
-        groove_radius(row, race),
-        (row.contact_angle, side),
-    );
+    let nominal = torus(row, race, groove_radius(row, race), row.contact_angle, side);
     let profile = [&row.outer_profile, &row.inner_profile][race];
     let arch = [&row.outer_arch, &row.inner_arch][race];
     let edge = [row.outer_shoulder_radius, row.inner_shoulder_radius][race];
@@ -45,7 +40,7 @@ pub(super) fn geometry(path: &str, row: &Row, race: Race) -> Result<RaceGeometry
 }
 
 /// A groove of a radius whose contact is inclined by an angle at zero clearance, to a side of the outer contact.
-fn torus(row: &Row, race: Race, r: f64, (angle, side): (f64, f64)) -> Torus {
+fn torus(row: &Row, race: Race, r: f64, angle: f64, side: f64) -> Torus {
     let (radius, sigma) = (row.ball_diameter / 2.0, race.sigma());
     let (sin, cos) = angle.sin_cos();
     let shoulders = match race {
@@ -83,7 +78,7 @@ fn flanks(row: &Row, race: Race, arch: &GothicArch) -> [Torus; 2] {
     [0, 1].map(|flank| {
         let towards = [-1.0, 1.0][flank];
         let r = row.ball_diameter * conformities[flank];
-        torus(row, race, r, (arch.shim_angle, race.sigma() * towards))
+        torus(row, race, r, arch.shim_angle, race.sigma() * towards)
     })
 }
 

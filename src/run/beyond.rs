@@ -15,8 +15,10 @@ use crate::integrate::{self, DenseStep, Options, Tolerance};
 pub(super) fn go_on(
     dynamics: &mut Dynamics<'_>,
     watch: &mut dyn StepWatch,
-    (end, y): (f64, &[f64]),
-    (tolerance, options): (&Tolerance, &Options),
+    end: f64,
+    y: &[f64],
+    tolerance: &Tolerance,
+    options: &Options,
     progress: Progress<'_>,
 ) -> Result<usize> {
     let until = watch.until(end);

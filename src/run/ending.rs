@@ -21,7 +21,7 @@ pub(crate) enum Halt {
 
 impl Halt {
     /// The error in the last state of all bodies, at a time and after a step \[s\].
-    pub fn error(&self, model: &Model, last: &[f64], (time, step): (f64, f64)) -> Error {
+    pub fn error(&self, model: &Model, last: &[f64], time: f64, step: f64) -> Error {
         let (body, reason) = match self {
             Self::Escaped(ball) => (
                 Some(BodyId::ball(*ball)),
@@ -36,7 +36,7 @@ impl Halt {
             }
             Self::Crawls => (None, CRAWLING.to_owned()),
         };
-        stopped(model, last, (time, step), body, &reason)
+        stopped(model, last, time, step, body, &reason)
     }
 }
 
@@ -51,15 +51,17 @@ pub(crate) fn broken(model: &Model, last: &[f64], begins: f64, failure: &Failure
             .to_owned(),
         FailureKind::Invalid(invalid) => invalid.0.to_owned(),
     };
-    let when = (begins + failure.time, failure.step);
-    stopped(model, last, when, Some(BodyId::new(failure.group)), &reason)
+    let time = begins + failure.time;
+    let body = Some(BodyId::new(failure.group));
+    stopped(model, last, time, failure.step, body, &reason)
 }
 
 /// The error with what held up the run in its last state: a body's contacts, or the fastest of all.
 fn stopped(
     model: &Model,
     last: &[f64],
-    (time, step): (f64, f64),
+    time: f64,
+    step: f64,
     body: Option<BodyId>,
     reason: &str,
 ) -> Error {

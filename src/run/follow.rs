@@ -170,7 +170,7 @@ impl Trajectory {
         // Whoever was interrupted may go on.
         self.memory = memory;
         if let Some((step, why)) = halt {
-            return Err(why.error(model, &self.last, (zero + self.time, step)));
+            return Err(why.error(model, &self.last, zero + self.time, step));
         }
         if spent {
             return Err(self.steps.error(zero + self.time));
@@ -194,9 +194,11 @@ impl Trajectory {
     ) -> Result<()> {
         let begun = clock::now();
         let tolerance = tolerance(dynamics)?;
-        let (end, time) = ((self.time, &self.own[..]), self.interval.zero + self.time);
-        self.nfev_past_end = go_on(dynamics, watch, end, (&tolerance, options), progress)?;
+        self.nfev_past_end = go_on(
+            dynamics, watch, self.time, &self.own, &tolerance, options, progress,
+        )?;
         if watch.finish().is_break() {
+            let time = self.interval.zero + self.time;
             return Err(Error::Interrupted { time });
         }
         let _ = progress(1.0);

@@ -68,11 +68,10 @@ pub(super) fn prepare(
         accuracy::check(&scene)?;
     }
     // Before anything is computed; once more when it is known how fine signals are read.
-    check_memory(&scene, run, (run.samples()?, 1), in_blocks)?;
+    check_memory(&scene, run, run.samples()?, 1, in_blocks)?;
     let settled = settle::settle(&scene, run, progress)?;
     let accuracy = run.accuracy.map(|requested| {
-        let pilot =
-            &mut |scene: &Scene, from: &Start| pilot((scene, from), run, simulate, progress);
+        let pilot = &mut |scene: &Scene, from: &Start| pilot(scene, from, run, simulate, progress);
         accuracy::choose(requested, &mut scene, &settled.from, pilot)
     });
     Ok(Prepared {
@@ -86,7 +85,8 @@ pub(super) fn prepare(
 
 /// The first milliseconds of a run: samples of its first column, and the evaluations.
 fn pilot(
-    (scene, from): (&Scene, &Start),
+    scene: &Scene,
+    from: &Start,
     run: &Run,
     simulate: Simulate,
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
@@ -111,7 +111,8 @@ fn pilot(
 pub(super) fn check_memory(
     scene: &Scene,
     run: &Run,
-    (count, oversampling): (usize, usize),
+    count: usize,
+    oversampling: usize,
     in_blocks: bool,
 ) -> Result<()> {
     let demand = Demand::of(scene);

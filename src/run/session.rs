@@ -52,12 +52,11 @@ impl<'s> Session<'s> {
         let (model, distrust) = selftest::trusted(prepared.compile()?);
         let y0 = start(&model, &prepared.settled.from)?;
         let sampling = Sampling::new(run.bandwidth, run.fs, model.scales.frequency)?;
-        let samples = (run.samples()?, sampling.oversampling);
-        check_memory(&prepared.scene, run, samples, in_blocks)?;
+        let (count, oversampling) = (run.samples()?, sampling.oversampling);
+        check_memory(&prepared.scene, run, count, oversampling, in_blocks)?;
         let options = options(&model);
         let trajectory = Trajectory::new(&model, y0, whole(run), options.max_step);
-        let compiled = (model, distrust);
-        Self::of(run, prepared, compiled, sampling, trajectory, keep)
+        Self::of(run, prepared, model, distrust, sampling, trajectory, keep)
     }
 
     /// The session of a run where it stood.
@@ -78,8 +77,7 @@ impl<'s> Session<'s> {
             return Err(unfit(Unfit));
         }
         let sampling = Sampling::again(run.bandwidth, run.fs, remembered.oversampling);
-        let compiled = (model, distrust);
-        let mut made = Self::of(run, prepared, compiled, sampling, trajectory, keep)?;
+        let mut made = Self::of(run, prepared, model, distrust, sampling, trajectory, keep)?;
         Words::load(&remembered.recorder, &mut made.recorder).map_err(unfit)?;
         made.earlier = remembered.earlier;
         Ok(made)
@@ -88,7 +86,8 @@ impl<'s> Session<'s> {
     fn of(
         run: &Run,
         prepared: Prepared,
-        (model, distrust): (Model, Option<Distrust>),
+        model: Model,
+        distrust: Option<Distrust>,
         sampling: Sampling,
         trajectory: Trajectory,
         keep: Keep<'s>,

@@ -395,8 +395,14 @@ impl DefectDocument {
 
 impl DefectDocument {
     /// The record of a place, surface, row, ball, angle and axial place, and what lies there.
-    pub fn new(place: (Surface, usize, Option<usize>, f64, AxialOffset), damage: &Damage) -> Self {
-        let (on, row, ball, angle, axial_offset) = place;
+    pub fn new(
+        on: Surface,
+        row: usize,
+        ball: Option<usize>,
+        angle: f64,
+        axial_offset: AxialOffset,
+        damage: &Damage,
+    ) -> Self {
         let (shape, walls) = match damage {
             Damage::Patch { .. } => (None, None),
             Damage::SteepPatch { .. } => (None, Some(WallsWord::Steep)),

@@ -151,8 +151,15 @@ impl Defect {
 
 impl Serialize for Defect {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let place = (self.on, self.row, self.ball, self.angle, self.axial_offset);
-        DefectDocument::new(place, &self.damage).serialize(serializer)
+        let Self {
+            on,
+            row,
+            ball,
+            angle,
+            axial_offset,
+            ref damage,
+        } = *self;
+        DefectDocument::new(on, row, ball, angle, axial_offset, damage).serialize(serializer)
     }
 }
 

@@ -271,7 +271,7 @@ pub(crate) fn compiled(model: &Model, defect: &Defect) -> (SurfaceDefect, f64) {
         model.typical_widths(defect.row),
     );
     let on_race = |race: Race| {
-        let mut shape = race_defect(defect, row, (&pairs[race], &hertz[race]));
+        let mut shape = race_defect(defect, row, &pairs[race], &hertz[race]);
         shape.widen(widths[race]);
         (shape, row.axial_position)
     };

@@ -291,7 +291,7 @@ pub(crate) fn describe(model: &Model, y: &[f64], iterations: usize) -> Equilibri
             angle: loaded.then_some(summary.angle),
             deflection: deflection(model, y, j, race),
             zone_centre: loaded.then_some(summary.zone_centre),
-            pressure: inspect::pressure(model, y, (j, race), summary.load),
+            pressure: inspect::pressure(model, y, j, race, summary.load),
         }
     };
     let ball = |(j, ball): (usize, &Ball)| {

@@ -233,11 +233,11 @@ impl<'m> BallInPlace<'m> {
             let ring = self
                 .model
                 .tilted_as(Race::Outer, &outer, self.tilts[Race::Outer]);
-            let [on_ball, _] = inspect::between(self.model, (self.j, Race::Outer), &ball, &ring);
+            let [on_ball, _] = inspect::between(self.model, self.j, Race::Outer, &ball, &ring);
             add(&on_ball);
         }
         let [on_ball, on_ring] =
-            inspect::between(self.model, (self.j, Race::Inner), &ball, &self.inner(by));
+            inspect::between(self.model, self.j, Race::Inner, &ball, &self.inner(by));
         add(&on_ball);
         for i in 0..3 {
             felt[ON_RING + i] = on_ring.force[i];

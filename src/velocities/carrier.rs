@@ -45,7 +45,8 @@ impl<const N: usize> Carrier<N> {
     /// The carrier of the ring of a race and its mobility, as it is seen.
     pub fn new(
         model: &Model,
-        (race, mobility): (Race, [f64; DOFS]),
+        race: Race,
+        mobility: [f64; DOFS],
         view: &View<'_>,
         gamma_h: f64,
     ) -> Self {

@@ -180,8 +180,7 @@ impl Task for FindElements<'_> {
         let instructions = self.model.instructions;
         let balls = self.contacts.iter().map(|contact| contact.ball);
         let turning = self.free.then(|| self.view.turning(balls));
-        let of = (&eight, turning);
-        pair.held_elements::<FMA>(of, ring, self.whole, instructions, self.nodes)
+        pair.held_elements::<FMA>(&eight, turning, ring, self.whole, instructions, self.nodes)
     }
 }
 
@@ -234,9 +233,8 @@ impl<const N: usize> Task for FindSlopes<'_, N> {
             twist[2] = twist[2] - ring[2];
             twist[3] = twist[3] - ring[3];
             let local = in_contact(&twist, n_e);
-            let held = (&mut side.nodes, &side.held);
-            let sum = &mut side.slope;
-            *sum = pair.slopes::<FMA, N>(held, &local, reach, model.instructions);
+            let (nodes, held, sum) = (&mut side.nodes, &side.held, &mut side.slope);
+            *sum = pair.slopes::<FMA, N>(nodes, held, &local, reach, model.instructions);
             pair.add_rolling_resistance::<N>(&side.held.around, sum);
             sum.turn(n_e);
             for (contact, pack) in &side.packs {
@@ -245,8 +243,8 @@ impl<const N: usize> Task for FindSlopes<'_, N> {
                 let mut part = HeldSlope::default();
                 let mut local = in_contact(&all, pack.n_e);
                 pack.approach(&mut local);
-                let element = (&pack.element, Some(&pack.rolling));
-                pair.add_slope::<FMA, N>(element, around, &local, reach, &mut part);
+                let rolling = Some(&pack.rolling);
+                pair.add_slope::<FMA, N>(&pack.element, rolling, around, &local, reach, &mut part);
                 part.turn(pack.n_e);
                 sum.gather(*lane, &part);
             }

@@ -324,7 +324,8 @@ mod tests {
         dynamics: &mut Dynamics<'_>,
         y: &[f64],
         reach: f64,
-        (step, share): (f64, f64),
+        step: f64,
+        share: f64,
     ) {
         let half = y.len() / 2;
         let gamma_h = 1e-6;
@@ -370,7 +371,8 @@ mod tests {
                 &mut Dynamics::new(&model),
                 &state(&model),
                 0.0,
-                (1e-5, 1e-5),
+                1e-5,
+                1e-5,
             );
         }
     }
@@ -386,7 +388,8 @@ mod tests {
                 &mut Dynamics::new(&model),
                 &state(&model),
                 0.0,
-                (1e-6, 3e-3),
+                1e-6,
+                3e-3,
             );
         }
     }
@@ -398,7 +401,7 @@ mod tests {
         for scene in scenes().into_iter().chain([oiled_wheel()]) {
             let model = compiled(&scene);
             let y = start(&model, &Start::Equilibrium).unwrap();
-            is_corrected_by_the_derivative(&mut Dynamics::new(&model), &y, 3e-6, (1e-5, 0.05));
+            is_corrected_by_the_derivative(&mut Dynamics::new(&model), &y, 3e-6, 1e-5, 0.05);
         }
     }
 
@@ -420,7 +423,7 @@ mod tests {
                 let ring = if body.index() < 2 { 1.0 } else { 0.1 };
                 y[half + i] += 0.02 * ring * (i as f64).sin();
             }
-            is_corrected_by_the_derivative(&mut dynamics, &y, 0.0, (1e-5, 1e-3));
+            is_corrected_by_the_derivative(&mut dynamics, &y, 0.0, 1e-5, 1e-3);
         }
     }
 }

@@ -209,7 +209,7 @@ impl<const N: usize> Task for Factorise<'_, N> {
         }
         let carriers = Race::BOTH.map(|race| {
             let mobility = mobilities.of(race.ring());
-            Carrier::new(model, (race, mobility), &views[race], gamma_h)
+            Carrier::new(model, race, mobility, &views[race], gamma_h)
         });
         let diagonal = Race::BOTH.map(|race| carriers[race].diagonal(model, race));
         arrow.factorise(&diagonal, &carriers);

@@ -21,7 +21,8 @@ impl FrictionWeights {
     pub(in crate::contact) fn at_nodes<const FMA: bool>(
         &mut self,
         instructions: InstructionSet,
-        (pair, sigma): (&Pair, Lanes),
+        pair: &Pair,
+        sigma: Lanes,
         whole: &Whole<Lanes>,
         moves: &Moves<Lanes>,
         middle: Option<Lanes>,

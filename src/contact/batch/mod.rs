@@ -203,13 +203,8 @@ impl Pair {
                 to.element::<FMA, false>(&element, self.slices.count());
             }
             Summing::Elements(instructions, friction_weight) => {
-                let friction_weight = friction_weight.at_nodes::<FMA>(
-                    instructions,
-                    (self, sigma),
-                    whole,
-                    moves,
-                    None,
-                );
+                let friction_weight =
+                    friction_weight.at_nodes::<FMA>(instructions, self, sigma, whole, moves, None);
                 kernel::elements::<_, FMA, SYMMETRIC>(
                     &self.law,
                     &self.slices,

@@ -47,19 +47,21 @@ impl Pair {
         eight: &EightContacts,
         ring: &Motion,
         contour: &Contour,
-        (instructions, friction_weight): (InstructionSet, &mut FrictionWeights),
+        instructions: InstructionSet,
+        friction_weight: &mut FrictionWeights,
     ) -> BatchForces {
         let (curve, found, whole, moves, place) = self.place_on_curve::<FMA>(eight, ring, contour);
         let middle = (found.ends.0 + found.ends.1) * 0.5;
         let friction_weight = friction_weight.at_nodes::<FMA>(
             instructions,
-            (self, Lanes::all(self.race.sigma)),
+            self,
+            Lanes::all(self.race.sigma),
             &whole,
             &moves,
             Some(middle),
         );
         let mut sums = Sums::new(self, Lanes::all(self.race.sigma), &whole, &moves);
-        self.elements_on_curve::<FMA>(&curve, &found, (&whole, middle), friction_weight, &mut sums);
+        self.elements_on_curve::<FMA>(&curve, &found, &whole, middle, friction_weight, &mut sums);
         sums.on_bodies(&place)
     }
 
@@ -67,10 +69,12 @@ impl Pair {
     #[inline(always)]
     pub(crate) fn forces_on_curve_tilted<const FMA: bool>(
         &self,
-        (eight, turning): (&EightContacts, Across),
+        eight: &EightContacts,
+        turning: Across,
         ring: &Motion,
         contour: &Contour,
-        (instructions, friction_weight): (InstructionSet, &mut FrictionWeights),
+        instructions: InstructionSet,
+        friction_weight: &mut FrictionWeights,
     ) -> (BatchForces, [Across; 2]) {
         let (curve, found, whole, moves, place) = self.place_on_curve::<FMA>(eight, ring, contour);
         let middle = (found.ends.0 + found.ends.1) * 0.5;
@@ -88,7 +92,7 @@ impl Pair {
             turning,
             moments: [Lanes::ZERO; 2],
         };
-        self.elements_on_curve::<FMA>(&curve, &found, (&whole, middle), friction_weight, &mut sums);
+        self.elements_on_curve::<FMA>(&curve, &found, &whole, middle, friction_weight, &mut sums);
         sums.on_bodies(eight, &place)
     }
 
@@ -142,7 +146,8 @@ impl Pair {
         &self,
         curve: &OnCurve<'_>,
         found: &Meetings,
-        (whole, middle): (&Whole<Lanes>, Lanes),
+        whole: &Whole<Lanes>,
+        middle: Lanes,
         friction_weight: Option<&[Lanes]>,
         to: &mut impl Receiver<Lanes>,
     ) {

@@ -26,9 +26,11 @@ impl Pair {
     #[inline(always)]
     pub(crate) fn forces_tilted<const FMA: bool>(
         &self,
-        (eight, turning): (&EightContacts, Across),
+        eight: &EightContacts,
+        turning: Across,
         ring: &Motion,
-        (instructions, friction_weight): (InstructionSet, &mut FrictionWeights),
+        instructions: InstructionSet,
+        friction_weight: &mut FrictionWeights,
     ) -> (BatchForces, [Across; 2]) {
         let ring = &RingLanes::of(ring, self.race.sigma);
         let (whole, moves, place) = self.place::<FMA, false>(eight, ring, Mask::default());

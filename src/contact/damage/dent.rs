@@ -63,11 +63,7 @@ pub(super) struct Dent {
 
 impl Dent {
     /// A dent of a surface, compiled: a width and a length, a depth and the height of the rim.
-    pub fn compiled(
-        (width, length): (f64, Option<f64>),
-        (depth, rim): (f64, f64),
-        bed: &Bed,
-    ) -> AnyDamage {
+    pub fn compiled(width: f64, length: Option<f64>, depth: f64, rim: f64, bed: &Bed) -> AnyDamage {
         let half = half_axes(width, length);
         AnyDamage::Dent(Self {
             hole: Hole::new(half),
@@ -290,8 +286,8 @@ mod tests {
     /// A dent in contacts that bear 250 N at most.
     fn dent(half: [f64; 2], depth: f64, rim: f64) -> Dent {
         let bed = Bed::round(0.0, 23.49e-3, [race(); 2]);
-        let size = (2.0 * half[1], Some(2.0 * half[0]));
-        let AnyDamage::Dent(mut dent) = Dent::compiled(size, (depth, rim), &bed) else {
+        let (width, length) = (2.0 * half[1], Some(2.0 * half[0]));
+        let AnyDamage::Dent(mut dent) = Dent::compiled(width, length, depth, rim, &bed) else {
             panic!("a dent is none");
         };
         dent.widened(0.1157e-3);

@@ -131,7 +131,7 @@ impl AnyDamage {
                 length,
                 depth,
                 rim_height,
-            } => Dent::compiled((*width, *length), (*depth, *rim_height), bed),
+            } => Dent::compiled(*width, *length, *depth, *rim_height, bed),
         }
     }
 

@@ -18,15 +18,16 @@ impl Pair {
     #[inline(always)]
     pub(crate) fn slopes<const FMA: bool, const N: usize>(
         &self,
-        (nodes, held): (&mut HeldElements, &HeldContacts),
+        nodes: &mut HeldElements,
+        held: &HeldContacts,
         twist: &[Lanes; N],
         reach: f64,
         instructions: InstructionSet,
     ) -> HeldSlope<N> {
         let mut slope = HeldSlope::default();
         if !self.law.traction.is_some_and(|law| law.is_film()) {
-            for node in nodes.iter() {
-                self.add_slope::<FMA, N>(node, &held.around, twist, reach, &mut slope);
+            for (element, rolling) in nodes.iter() {
+                self.add_slope::<FMA, N>(element, rolling, &held.around, twist, reach, &mut slope);
             }
             return slope;
         }
@@ -47,8 +48,8 @@ impl Pair {
                 beside[j] += step * side;
                 self.weigh::<FMA, N>(nodes, held, &beside, instructions);
                 let mut wrench = [Lanes::ZERO; N];
-                for node in nodes.iter() {
-                    self.add_wrench::<FMA, N>(node, &held.around, &beside, &mut wrench);
+                for (element, rolling) in nodes.iter() {
+                    self.add_wrench::<FMA, N>(element, rolling, &held.around, &beside, &mut wrench);
                 }
                 for i in 0..N {
                     slope.by[i][j] += wrench[i] * (2.0 * side) / step;
@@ -92,7 +93,7 @@ impl Pair {
                 None,
             )
         } else {
-            friction_weight.at_nodes::<FMA>(instructions, (self, sigma), whole, &moves, None)
+            friction_weight.at_nodes::<FMA>(instructions, self, sigma, whole, &moves, None)
         };
         for (element, weight) in elements.iter_mut().zip(weights.into_iter().flatten()) {
             element.friction_weight = *weight;

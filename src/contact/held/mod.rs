@@ -140,7 +140,8 @@ impl Pair {
     #[inline(always)]
     pub(crate) fn held_elements<const FMA: bool>(
         &self,
-        (eight, turning): (&EightContacts, Option<Across>),
+        eight: &EightContacts,
+        turning: Option<Across>,
         ring: &Motion,
         whole: Mask,
         instructions: InstructionSet,
@@ -157,7 +158,8 @@ impl Pair {
         let friction_weight = match turning {
             None => friction_weight.at_nodes::<FMA>(
                 instructions,
-                (self, ring.sigma),
+                self,
+                ring.sigma,
                 &contact,
                 &moves,
                 None,
@@ -211,14 +213,14 @@ impl Pair {
     #[inline(always)]
     pub(crate) fn add_slope<const FMA: bool, const N: usize>(
         &self,
-        element: (&HeldElement, Option<&HeldRolling>),
+        element: &HeldElement,
+        rolling: Option<&HeldRolling>,
         around: &Around,
         twist: &[Lanes; N],
         reach: f64,
         to: &mut HeldSlope<N>,
     ) {
-        let moved = self.moved::<FMA, true, N>(element, around, twist);
-        let (element, _) = element;
+        let moved = self.moved::<FMA, true, N>(element, rolling, around, twist);
         let slope = self.slope::<FMA>(&moved.state, &moved.force, element.hardening, reach);
         to.subtract::<FMA>(&slope.force, element.levers);
         if N > AXIAL {
@@ -230,13 +232,14 @@ impl Pair {
     #[inline(always)]
     fn add_wrench<const FMA: bool, const N: usize>(
         &self,
-        element: (&HeldElement, Option<&HeldRolling>),
+        element: &HeldElement,
+        rolling: Option<&HeldRolling>,
         around: &Around,
         twist: &[Lanes; N],
         to: &mut [Lanes; N],
     ) {
-        let moved = self.moved::<FMA, false, N>(element, around, twist);
-        let (HeldElement { levers, slope, .. }, force) = (element.0, &moved.force);
+        let moved = self.moved::<FMA, false, N>(element, rolling, around, twist);
+        let (HeldElement { levers, slope, .. }, force) = (element, &moved.force);
         for i in 0..3 {
             to[i] = to[i] - force.on_ring[i];
         }
@@ -257,7 +260,8 @@ impl Pair {
     #[inline(always)]
     fn moved<const FMA: bool, const SLOPE: bool, const N: usize>(
         &self,
-        (element, rolling): (&HeldElement, Option<&HeldRolling>),
+        element: &HeldElement,
+        rolling: Option<&HeldRolling>,
         around: &Around,
         twist: &[Lanes; N],
     ) -> MovedElement {

@@ -374,7 +374,9 @@ impl OneContact<'_> {
                 oiled,
                 r,
                 &moves,
-                (sigma, self.facing.apart, lever),
+                sigma,
+                self.facing.apart,
+                lever,
             ));
         }
     }

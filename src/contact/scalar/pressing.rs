@@ -61,7 +61,7 @@ impl OneContact<'_> {
         }
         let depth = node.depth - share * (surface.drops.0.value() + met.ball_drops.0.value());
         let n_e = surface.n_e;
-        let mut state = self.state(node, surface, tan, (elastic, depth));
+        let mut state = self.state(node, surface, tan, elastic, depth);
         let force = if self.facing.b.across == V2::zeros() {
             kernel::force::<_, false, false, false, false>(&pair.law, &state, 0.0)
         } else {
@@ -120,7 +120,8 @@ impl OneContact<'_> {
         node: &Node,
         surface: &RingSurface<D>,
         tan: f64,
-        (elastic, depth): (f64, f64),
+        elastic: f64,
+        depth: f64,
     ) -> ElementState<f64> {
         let (b, r, n_e) = (self.facing.b, self.facing.r, surface.n_e);
         let arm_ball = surface.arm_ring - self.facing.apart;

@@ -148,18 +148,18 @@ impl OneContact<'_> {
         if self.facing.ring_open && self.facing.feels_ring_ends() {
             // Of all: one out of reach may overlap one in reach.
             for zeta in different(self.ends_on_race(|_| true)) {
-                self.end((line, zeta), Owner::Ring, sink);
+                self.end(line, zeta, Owner::Ring, sink);
             }
         }
         if self.facing.ball_open {
             for zeta in different(self.ends_on_ball()) {
-                self.end((line, zeta), Owner::Ball, sink);
+                self.end(line, zeta, Owner::Ball, sink);
             }
         }
     }
 
     /// Adds the force of the axial end of a defect at a place ζ of a line.
-    fn end<S: Sink + ?Sized>(&self, (line, zeta): (&Line, f64), owner: Owner, sink: &mut S) {
+    fn end<S: Sink + ?Sized>(&self, line: &Line, zeta: f64, owner: Owner, sink: &mut S) {
         if let Some(node) = self.node_of(line, zeta) {
             self.facing.end(&node, owner, sink);
         }

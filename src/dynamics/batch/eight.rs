@@ -110,7 +110,7 @@ impl SideConstants {
             .iter()
             .map(|row| numbers_of(&row.pairs[race]))
             .collect();
-        let class = |class: usize| ClassConstants::new(model, race, (&balls, &films), class);
+        let class = |class: usize| ClassConstants::new(model, race, &balls, &films, class);
         Self {
             classes: (0..model.rows.len()).map(class).collect(),
             balls,
@@ -223,7 +223,8 @@ impl ClassConstants {
     fn new(
         model: &Model,
         race: Race,
-        (balls, films): (&[Constants<f64>], &[Option<FilmNumbers<f64>>]),
+        balls: &[Constants<f64>],
+        films: &[Option<FilmNumbers<f64>>],
         class: usize,
     ) -> Self {
         let own = balls[model.rows[class].first];
@@ -288,14 +289,21 @@ impl<const TILTED: bool> Task for EightOnCurve<'_, TILTED> {
         let model = of.model;
         let race = group.race(0);
         let (pair, view) = (&model.rows[group.class].pairs[race], &of.views[race]);
-        let friction_weight = (model.instructions, &mut group.friction_weight);
+        let (instructions, weights) = (model.instructions, &mut group.friction_weight);
+        let ring = &view.ring;
         if TILTED {
-            let held = (&eight, group.turning);
-            (group.forces, group.across) =
-                pair.forces_on_curve_tilted::<FMA>(held, &view.ring, contour, friction_weight);
+            let turning = group.turning;
+            (group.forces, group.across) = pair.forces_on_curve_tilted::<FMA>(
+                &eight,
+                turning,
+                ring,
+                contour,
+                instructions,
+                weights,
+            );
         } else {
             group.forces =
-                pair.forces_on_curve::<FMA>(&eight, &view.ring, contour, friction_weight);
+                pair.forces_on_curve::<FMA>(&eight, ring, contour, instructions, weights);
         }
     }
 }
@@ -414,10 +422,10 @@ impl<const TILTED: bool> Task for Eight<'_, TILTED> {
         let Self { group, of } = self;
         let race = group.race(0);
         let pair = &of.model.rows[group.class].pairs[race];
-        let friction_weight = (of.model.instructions, &mut group.friction_weight);
-        let held = (&eight, group.turning);
+        let (instructions, weights) = (of.model.instructions, &mut group.friction_weight);
+        let (turning, ring) = (group.turning, &of.views[race].ring);
         (group.forces, group.across) =
-            pair.forces_tilted::<FMA>(held, &of.views[race].ring, friction_weight);
+            pair.forces_tilted::<FMA>(&eight, turning, ring, instructions, weights);
     }
 }
 

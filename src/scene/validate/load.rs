@@ -16,7 +16,7 @@ pub(super) fn drive(scene: &Scene) -> Result<()> {
             value,
             initial_speed,
         } => {
-            time_function("drive.torque.value", value, (1e12, "N m"))?;
+            time_function("drive.torque.value", value, 1e12, "N m")?;
             within(
                 "drive.torque.initial_speed",
                 *initial_speed,
@@ -29,7 +29,7 @@ pub(super) fn drive(scene: &Scene) -> Result<()> {
 
 /// The given speed of a ring.
 fn ring_speed(path: &str, speed: &TimeFunction) -> Result<()> {
-    time_function(path, speed, (1e6, "rad/s"))?;
+    time_function(path, speed, 1e6, "rad/s")?;
     let jumps = match speed {
         TimeFunction::Profile(Profile::Ramp { start, end, .. }) => start == end,
         TimeFunction::Profile(Profile::Table { times, .. }) => {
@@ -58,7 +58,7 @@ pub(super) fn loads(scene: &Scene) -> Result<()> {
             at: _,
         } = load;
         direction(&format!("loads.{name}"), along)?;
-        time_function(&format!("loads.{name}.force"), force, (1e12, "N"))?;
+        time_function(&format!("loads.{name}.force"), force, 1e12, "N")?;
     }
     for (name, table) in &scene.table_forces {
         entry_name("table_forces", name)?;
@@ -125,7 +125,8 @@ fn unbalances(scene: &Scene) -> Result<()> {
 pub(super) fn time_function(
     path: &str,
     value: &TimeFunction,
-    (limit, unit): (f64, &str),
+    limit: f64,
+    unit: &str,
 ) -> Result<()> {
     let each = |field: &str, x: f64| within(&format!("{path}{field}"), x, -limit..=limit, unit);
     match value {

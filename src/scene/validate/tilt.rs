@@ -71,7 +71,7 @@ fn given(path: &str, support: &Support) -> Result<()> {
             continue;
         };
         let path = format!("{path}.{field}.given");
-        let limit = match field {
+        let (limit, unit) = match field {
             "theta" => {
                 let allowed =
                     "a speed instead: drive.speed of the inner ring, outer_speed of the outer";
@@ -80,7 +80,7 @@ fn given(path: &str, support: &Support) -> Result<()> {
             "tilt_x" | "tilt_y" => (FURTHEST, "rad"),
             _ => (FURTHEST_PLACE, "m"),
         };
-        time_function(&path, motion, limit)?;
+        time_function(&path, motion, limit, unit)?;
         let shape = match **motion {
             TimeFunction::Profile(Profile::Ramp { .. }) => "ramp",
             TimeFunction::Profile(Profile::Table { .. }) => "table",
@@ -139,7 +139,7 @@ pub(super) fn loads(scene: &Scene) -> Result<()> {
             moment,
         } = moment;
         direction(&format!("moments.{name}"), about)?;
-        time_function(&format!("moments.{name}.moment"), moment, (1e12, "N m"))?;
+        time_function(&format!("moments.{name}.moment"), moment, 1e12, "N m")?;
     }
     for (name, load) in &scene.loads {
         for (i, at) in load.at.unwrap_or_default().into_iter().enumerate() {
