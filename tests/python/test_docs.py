@@ -3,14 +3,18 @@
 Blocks of a page run in their order in one empty folder: ``python`` in one namespace, ``sh`` in a shell that knows
 ``ballrace``. ``toml`` whose first line is a comment with a file's name becomes that file. ``rust`` has to be an
 example of the crate's own documentation, which cargo runs. A second word says what a block is instead: ``no-run``,
-or ``record`` where it wants a measured record.
+or ``record`` where it wants a measured record. ``text output`` is what the block before it prints: words as they
+stand, numbers within 5 %.
 """
 
 from __future__ import annotations
 
 import ast
+import contextlib
 import doctest
 import importlib
+import io
+import math
 import os
 import pkgutil
 import re
@@ -68,7 +72,7 @@ def run_toml(text: str) -> None:
         Path(name[1]).write_text(text, encoding="utf-8")
 
 
-def run_shell(text: str) -> None:
+def run_shell(text: str) -> str:
     done = subprocess.run(
         ["bash", "-euo", "pipefail", "-c", SHELL + text],
         capture_output=True,
@@ -76,6 +80,23 @@ def run_shell(text: str) -> None:
         check=False,
     )
     assert done.returncode == 0, f"{text}{done.stdout}{done.stderr}"
+    return done.stdout
+
+
+def is_output(shown: str, printed: str) -> bool:
+    """Whether a page shows what was printed: words as they stand, numbers within 5 %, all blanks alike."""
+    number = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+    words = [" ".join(number.sub("#", text).split()) for text in (shown, printed)]
+    numbers = [[float(each) for each in number.findall(text)] for text in (shown, printed)]
+    return words[0] == words[1] and all(
+        math.isclose(one, other, rel_tol=0.05) for one, other in zip(*numbers, strict=True)
+    )
+
+
+def test_another_output_is_seen() -> None:
+    assert is_output("load 101 N,\n  2 balls", "load 100.0 N, 2 balls\n")
+    assert not is_output("load 110 N", "load 100 N")
+    assert not is_output("load 100 N", "loads 100 N")
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
@@ -88,13 +109,18 @@ def test_page_runs(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
             (tmp_path / record.name).symlink_to(record)
         kinds.add("record")
     names: dict[str, object] = {"__name__": page.stem}
+    printed = ""
     for block in blocks(page):
-        if block.kind not in kinds:
+        if block.kind == "output":
+            assert is_output(block.text, printed), f"{page.name}:{block.line}: {printed}"
+        elif block.kind not in kinds:
             assert block.kind in ("record", "no-run"), block
         elif block.language == "python":
-            exec(compile("\n" * block.line + block.text, str(page), "exec"), names)
+            with contextlib.redirect_stdout(io.StringIO()) as out:
+                exec(compile("\n" * block.line + block.text, str(page), "exec"), names)
+            printed = out.getvalue()
         elif block.language == "sh":
-            run_shell(block.text)
+            printed = run_shell(block.text)
         elif block.language == "toml":
             run_toml(block.text)
 
