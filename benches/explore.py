@@ -44,7 +44,7 @@ def main() -> None:
     parser.add_argument("--page", action="store_true", help="in a browser, too")
     options = parser.parse_args()
     print(f"load of the machine: {os.getloadavg()[0]:.1f}")
-    scenes = [br.bearing(name) for name in ("6205", "6316", "7208B", "3206")]
+    scenes = [br.bearing(name, speed_rpm=1800.0) for name in ("6205", "6316", "7208B", "3206")]
     for scene in [*scenes, br.presets.wheel_bearing(), br.presets.motor()]:
         print(f"{scene.name:20}", times_in_words(*computed(scene)))
     if options.page:

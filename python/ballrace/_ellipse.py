@@ -23,7 +23,7 @@ def axis_ratio(row: Row, race: Literal["outer", "inner"]) -> float:
     Examples
     --------
     >>> import ballrace as br
-    >>> row = br.bearing("6205").rows[0]
+    >>> row = br.bearing("6205", speed_rpm=1800.0).rows[0]
     >>> round(axis_ratio(row, "outer"), 2), round(axis_ratio(row, "inner"), 2)
     (5.72, 9.34)
     """

@@ -88,8 +88,8 @@ fn healthy(scene: &Scene) -> Scene {
 }
 
 /// The difference, and the scene at rest.
-fn compared(scene: &Scene) -> Result<(Option<AxisHeld>, AtRest)> {
-    let own = AtRest::of(scene.clone())?;
+fn compared(scene: &Scene) -> Result<(Option<AxisHeld>, OneSpin)> {
+    let own = OneSpin::of(scene.clone())?;
     if !own.is_driven() {
         return Ok((None, own));
     }
@@ -97,7 +97,7 @@ fn compared(scene: &Scene) -> Result<(Option<AxisHeld>, AtRest)> {
         return Ok((Some(AxisHeld::default()), own));
     }
     let is_free = scene.spin == Some(Spin::Free);
-    let other = AtRest::of(Scene {
+    let other = OneSpin::of(Scene {
         spin: Some(if is_free { Spin::Axial } else { Spin::Free }),
         ..scene.clone()
     })?;
@@ -110,14 +110,14 @@ fn compared(scene: &Scene) -> Result<(Option<AxisHeld>, AtRest)> {
 }
 
 /// A bearing at rest with the speeds that its balls have.
-struct AtRest {
+struct OneSpin {
     model: Model,
     /// Orbit speeds of the rows against the outer ring \[rad/s\]; none of one that nothing drives, or that is idle beside another.
     orbits: Vec<Option<f64>>,
     found: Equilibrium,
 }
 
-impl AtRest {
+impl OneSpin {
     fn of(scene: Scene) -> Result<Self> {
         let model = compile(&scene)?;
         let mut y = in_motion(&model, RaceControl::Friction, Spacing::Equal)?;

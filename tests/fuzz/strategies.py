@@ -74,7 +74,7 @@ def bases() -> dict[str, dict[str, Any]]:
         "oil": br.presets.deep_groove_6205(lubricant="vg68", temperature_c=60.0),
         "angular": br.bearing(
             "7205B", axial_load=300.0, radial_load=100.0,
-            defects=br.defects.spall(on="ball", width_mm=0.5),
+            defects=br.defects.spall(on="ball", width_mm=0.5), speed_rpm=1800.0,
         ),
         "driven": br.presets.deep_groove_6205(300.0).replace({"drive": S.TorqueDrive(value=0.1)}),
         "arch": br.presets.deep_groove_6205(300.0, 100.0).replace(

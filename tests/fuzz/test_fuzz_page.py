@@ -65,7 +65,9 @@ def shown(html: str) -> None:
             assert attribute.rpartition("}")[2] not in LOADING, attribute
 
 
-BEGUN = tuple(Settings.of(br.bearing(name)) for name in ("6205", "7208B", "3206", "6309"))
+BEGUN = tuple(
+    Settings.of(br.bearing(name, speed_rpm=1800.0)) for name in ("6205", "7208B", "3206", "6309")
+)
 FIELDS = [
     name for name in Settings.__dataclass_fields__ if name not in ("base", "oil", "damage", "on")
 ]

@@ -19,7 +19,10 @@ from strategies import EDGES, damaged
 
 CORPUS = Path(__file__).parent / "corpus" / "sweeps"
 SCENE = br.bearing(
-    "6205", radial_load=500.0, defects={"spall": br.defects.spall(on="outer_race", width_mm=1.0)}
+    "6205",
+    radial_load=500.0,
+    defects={"spall": br.defects.spall(on="outer_race", width_mm=1.0)},
+    speed_rpm=1800.0,
 )
 SHORT: dict[str, Any] = {
     "duration": 2e-4, "fs": 5e4, "start": "rolling", "settle": 0.0, "max_steps": 500, "time_limit": 5.0,

@@ -46,7 +46,7 @@ CALLS: list[tuple[str, Callable[[Any], object], tuple[Any, ...]]] = [
     ("contact_angle", lambda a: br.frequencies.orders(9, 1.0, 5.0, a), (None, "x", math.nan)),
     ("width_mm", lambda w: br.defects.spall(on="ball", width_mm=w), (None, "x", math.nan)),
     ("speed_rpm", lambda n: br.fault_frequencies("6205", n), (None, "x", math.nan)),
-    ("radial_load", lambda f: br.bearing("6205", radial_load=f), ("x", [1.0], -1.0)),
+    ("radial_load", lambda f: br.bearing("6205", radial_load=f, speed_rpm=1800.0), ("x", [1.0], -1.0)),
     ("speed_rpm", lambda n: br.bearing("6205", speed_rpm=n), ("x", math.inf)),
     ("outer_rpm", lambda n: br.bearing("6205", outer_rpm=n), ("x", math.inf)),
     ("outer_rpm", lambda n: br.fault_frequencies("6205", 0.0, outer_rpm=n), ("x", math.nan)),
@@ -130,7 +130,7 @@ def test_a_description_that_is_no_text_is_refused(tmp_path: Path) -> None:
 def test_a_name_that_no_file_can_have_is_refused(tmp_path: Path) -> None:
     """Such as one with a NUL, which TOML and JSON can bring along; nothing is written."""
     out = br.simulate(SCENE, duration=1e-3, settle=0.0)
-    figure, cases = br.plot.section(br.bearing("6205")), [{"duration": 1e-3}]
+    figure, cases = br.plot.section(br.bearing("6205", speed_rpm=1800.0)), [{"duration": 1e-3}]
     calls: dict[str, list[Callable[[Any], object]]] = {
         "path": [br.Scene.load, br.Signals.read_parquet, br.Signals.scan_parquet, br.read,
                  out.write, out.write_parquet, out.report, RECORD.write,

@@ -260,7 +260,7 @@ def test_a_bearing_and_its_error_go_to_other_processes() -> None:
     assert again == row
     assert hash(again) == hash(row)
     with pytest.raises(br.SceneError) as refused:
-        br.bearing("6299")
+        br.bearing("6299", speed_rpm=1800.0)
     error = pickle.loads(pickle.dumps(refused.value))
     assert str(error) == str(refused.value)
 
@@ -288,7 +288,7 @@ def test_find_and_tables() -> None:
 @pytest.mark.parametrize("kind", [kind for kind in KINDS if kind != "thrust"])
 def test_every_bearing_carries_a_tenth_of_its_rating(kind: Kind) -> None:
     for row in br.catalogue.find(kind=kind):
-        scene = br.bearing(row)
+        scene = br.bearing(row, speed_rpm=1800.0)
         assert scene.doubts() == (), row.designation
         found = br.equilibrium(scene)
         # Of a bearing whose rating stands for 4.2 GPa: p ∝ F^(1/3), clearance and thrust move it.
@@ -299,7 +299,7 @@ def test_every_bearing_carries_a_tenth_of_its_rating(kind: Kind) -> None:
 
 def test_two_rows_stand_back_to_back_and_take_thrust_either_way() -> None:
     """Limit: the mirrored load has the mirrored equilibrium; the row whose side it is carries it."""
-    rows = br.bearing("3206").rows
+    rows = br.bearing("3206", speed_rpm=1800.0).rows
     assert [(row.side, row.axial_position > 0.0) for row in rows] == [(1, False), (-1, True)]
     assert rows[1].axial_position == pytest.approx(0.54 * rows[0].ball_diameter)
     carried = []
@@ -319,19 +319,19 @@ def test_a_thrust_bearing_has_fault_frequencies_and_no_scene() -> None:
     assert br.catalogue["51105"].orders.bpfo == pytest.approx(7.5)
     assert br.fault_frequencies("51105", 1500.0).bpfi == pytest.approx(187.5)
     with pytest.raises(br.SceneError, match="80°") as refused:
-        br.bearing("51105")
+        br.bearing("51105", speed_rpm=1800.0)
     assert refused.value.path == "name"
 
 
 def test_two_rows_live_by_the_printed_rating() -> None:
-    life = br.rating_life(br.bearing("3206", radial_load=2000.0))
+    life = br.rating_life(br.bearing("3206", radial_load=2000.0, speed_rpm=1800.0))
     assert (life.rating, life.source) == (29600.0, "catalogue: NSK rolling bearing tables")
 
 
 def test_a_pitch_that_contradicts_the_bore_is_doubted() -> None:
     wrong = replace(br.catalogue["6308"], bore=47e-3, outside_diameter=97e-3)
     with pytest.warns(br.SceneWarning, match=r"pitch_diameter.*put the balls near 72 mm"):
-        br.equilibrium(br.bearing(wrong, radial_load=500.0))
+        br.equilibrium(br.bearing(wrong, radial_load=500.0, speed_rpm=1800.0))
 
 
 def test_the_rating_is_that_of_the_model() -> None:
@@ -343,7 +343,7 @@ def test_the_rating_is_that_of_the_model() -> None:
 
 
 def test_its_bare_ring_is_built_as_the_preset() -> None:
-    made = br.bearing("6205", radial_load=500.0, housing=None)
+    made = br.bearing("6205", radial_load=500.0, housing=None, speed_rpm=1800.0)
     preset = br.presets.deep_groove_6205()
     assert (made.cage, made.friction, made.contact) == (
         preset.cage,
@@ -362,9 +362,9 @@ def test_its_bare_ring_is_built_as_the_preset() -> None:
 
 def test_by_default_it_sits_in_a_pillow_block() -> None:
     """Literature: a unit UCP205 has 0.8 kg. Analytic: 1 kHz and 3 % of one mass on its mount, of any size."""
-    assert br.bearing("6205").outer_ring.mass == pytest.approx(0.8)
+    assert br.bearing("6205", speed_rpm=1800.0).outer_ring.mass == pytest.approx(0.8)
     for name in ("608", "6316", "7208B", "3205", "6324"):
-        ring = br.bearing(name).outer_ring
+        ring = br.bearing(name, speed_rpm=1800.0).outer_ring
         mount = ring.support.y
         assert isinstance(mount, br.scene.Spring)
         assert ring.mass is not None
@@ -376,7 +376,9 @@ def test_by_default_it_sits_in_a_pillow_block() -> None:
 
 
 def test_a_housing_of_its_own_is_the_ring_of_the_scene() -> None:
-    ring = br.bearing("6205", housing=br.Pedestal(mass=3.0, stiffness=2e8, damping=0.0)).outer_ring
+    ring = br.bearing(
+        "6205", housing=br.Pedestal(mass=3.0, stiffness=2e8, damping=0.0), speed_rpm=1800.0
+    ).outer_ring
     assert (ring.mass, ring.support.z) == (3.0, br.scene.Spring(stiffness=2e8, damping=0.0))
 
 
@@ -385,7 +387,9 @@ def test_load_decides_whether_damage_is_detected() -> None:
 
     def rms(angle: float, housing: Literal["pedestal"] | None) -> float:
         spall = replace(br.defects.spall(on="outer_race", width_mm=1.0), angle=angle)
-        scene = br.bearing("6205", radial_load=1500.0, defects=spall, housing=housing)
+        scene = br.bearing(
+            "6205", radial_load=1500.0, defects=spall, housing=housing, speed_rpm=1800.0
+        )
         return float(br.simulate(scene, duration=0.1)["outer.ay"].std())
 
     below, above = -math.pi / 2.0, math.pi / 2.0
@@ -393,21 +397,40 @@ def test_load_decides_whether_damage_is_detected() -> None:
     assert rms(below, None) < 5.0 * rms(above, None)
 
 
+def test_a_speed_is_asked_for_and_the_load_told() -> None:
+    """A bearing without a speed ran at 1800 rev/min without a word, and under a tenth of its static rating."""
+    for make in (
+        lambda: br.bearing("6205"),
+        lambda: br.pair("7205B"),
+        lambda: br.shaft([("6309", 0.0), ("6207", 0.25)]),
+    ):
+        with pytest.raises(br.SceneError, match=r"^speed_rpm = None: the speed of the inner ring"):
+            make()
+    assert "loads: axial 0 N, radial 785 N" in repr(br.bearing("6205", speed_rpm=1800.0))
+    assert br.bearing("6205", outer_rpm=600.0).drive == br.scene.SpeedDrive(0.0)
+
+
 @pytest.mark.parametrize("name", ["608", "6000", "6316", "61805", "7205C", "7310B", "3205"])
 def test_scenes_run(name: str) -> None:
-    out = br.simulate(br.bearing(name), duration=5e-3)
+    out = br.simulate(br.bearing(name, speed_rpm=1800.0), duration=5e-3)
     assert out.warnings == ()
     assert 0.0 < np.abs(out["outer.ay"]).max() < 1e3
 
 
 def test_clearance_is_the_middle_of_its_class() -> None:
-    assert br.bearing("6205").rows[0].clearance == pytest.approx(12.5e-6)
-    assert br.bearing("6205", clearance="C3").rows[0].clearance == pytest.approx(20.5e-6)
-    assert br.bearing("6205", clearance=3e-6).rows[0].clearance == 3e-6
-    assert br.bearing("SKF 6205-2RS/C3").rows[0].clearance == pytest.approx(20.5e-6)
-    assert br.bearing("6205 C3", clearance="C3").rows[0].clearance == pytest.approx(20.5e-6)
-    assert br.bearing("7205 C").rows[0].clearance == 0.0
-    assert br.bearing("7205B/C3").rows[0].clearance == 0.0
+    assert br.bearing("6205", speed_rpm=1800.0).rows[0].clearance == pytest.approx(12.5e-6)
+    assert br.bearing("6205", clearance="C3", speed_rpm=1800.0).rows[0].clearance == pytest.approx(
+        20.5e-6
+    )
+    assert br.bearing("6205", clearance=3e-6, speed_rpm=1800.0).rows[0].clearance == 3e-6
+    assert br.bearing("SKF 6205-2RS/C3", speed_rpm=1800.0).rows[0].clearance == pytest.approx(
+        20.5e-6
+    )
+    assert br.bearing("6205 C3", clearance="C3", speed_rpm=1800.0).rows[
+        0
+    ].clearance == pytest.approx(20.5e-6)
+    assert br.bearing("7205 C", speed_rpm=1800.0).rows[0].clearance == 0.0
+    assert br.bearing("7205B/C3", speed_rpm=1800.0).rows[0].clearance == 0.0
     assert radial_clearance(120e-3, "C5") == pytest.approx(115e-6)
     assert radial_clearance(130e-3, "CN") == pytest.approx(33e-6)
     assert radial_clearance(500e-3, "C3") == pytest.approx(235e-6)
@@ -418,32 +441,34 @@ def test_clearance_is_the_middle_of_its_class() -> None:
     assert np.all(np.diff(lines.mean(axis=2), axis=1) > 0.0)
     assert np.all(np.diff(lines, axis=0) >= 0.0)
     with pytest.raises(br.SceneError, match="'C3', as in '6205/C3', or absent"):
-        br.bearing("6205/C3", clearance="C2")
+        br.bearing("6205/C3", clearance="C2", speed_rpm=1800.0)
     assert radial_clearance(10e-3, "CN") == pytest.approx(7.5e-6)
     with pytest.raises(br.SceneError, match="clearance"):
-        br.bearing("6205", clearance="C9")
+        br.bearing("6205", clearance="C9", speed_rpm=1800.0)
     with pytest.raises(br.SceneError, match="contact angle"):
-        br.bearing("7205B", clearance="C3")
+        br.bearing("7205B", clearance="C3", speed_rpm=1800.0)
 
 
 def test_angular_contact_bearings_want_thrust_their_way() -> None:
     alpha = math.radians(40.0)
-    by_default = br.bearing("7205B", radial_load=1000.0)
+    by_default = br.bearing("7205B", radial_load=1000.0, speed_rpm=1800.0)
     assert by_default.loads["axial"].force == pytest.approx(1220.0 * math.tan(alpha))
     # About half of the balls carry it.
     loads = br.equilibrium(br.bearing("7205B", radial_load=1000.0, speed_rpm=1.0)).inner_load
     assert 6 <= np.count_nonzero(loads > 1e-3 * loads.max()) <= 9
     for thrust in (0.0, -1000.0, 800.0):
         with pytest.raises(br.SceneError, match="come apart") as refused:
-            br.bearing("7205B", radial_load=1000.0, axial_load=thrust)
+            br.bearing("7205B", radial_load=1000.0, axial_load=thrust, speed_rpm=1800.0)
         assert refused.value.path == "axial_load"
     assert (
-        br.equilibrium(br.bearing("7205B", radial_load=0.0, axial_load=500.0)).inner_load.min()
+        br.equilibrium(
+            br.bearing("7205B", radial_load=0.0, axial_load=500.0, speed_rpm=1800.0)
+        ).inner_load.min()
         > 0.0
     )
     # A deep groove bearing takes it either way.
     for thrust in (-200.0, 200.0):
-        br.equilibrium(br.bearing("6205", radial_load=300.0, axial_load=thrust))
+        br.equilibrium(br.bearing("6205", radial_load=300.0, axial_load=thrust, speed_rpm=1800.0))
 
 
 @pytest.mark.parametrize(
@@ -458,7 +483,7 @@ def test_angular_contact_bearings_want_thrust_their_way() -> None:
 )
 def test_bad_arguments_are_named(arguments: dict[str, float], field: str) -> None:
     with pytest.raises(br.SceneError) as refused:
-        br.bearing("6205", **arguments)  # type: ignore[arg-type]
+        br.bearing("6205", **({"speed_rpm": 1800.0} | arguments))  # type: ignore[arg-type]
     assert refused.value.path == field
 
 
@@ -494,7 +519,7 @@ def test_what_people_write_is_refused_with_what_they_meant(
     arguments: dict[str, object], field: str, message: str
 ) -> None:
     with pytest.raises(br.SceneError, match=message) as refused:
-        br.bearing("6205", **arguments)  # type: ignore[arg-type]
+        br.bearing("6205", **({"speed_rpm": 1800.0} | arguments))  # type: ignore[arg-type]
     assert refused.value.path == field
     with pytest.raises(br.SceneError, match="first argument"):
         br.bearing(d=25e-3)  # type: ignore[call-arg]

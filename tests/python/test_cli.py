@@ -121,7 +121,10 @@ def test_scene_prints_a_bearing_of_the_catalogue(capsys: pytest.CaptureFixture[s
     assert "near are" in refused(capsys, "scene", "620")
     message = refused(capsys, "scene", "wheel-bearing", "--rpm", "100")
     assert "speed_rpm = 100: absent beside wheel-bearing" in message
-    scenes = {"pedestal": br.bearing("6309"), "none": br.bearing("6309", housing=None)}
+    scenes = {
+        "pedestal": br.bearing("6309", speed_rpm=1800.0),
+        "none": br.bearing("6309", housing=None, speed_rpm=1800.0),
+    }
     for housing, scene in scenes.items():
         assert main(["scene", "6309", "--housing", housing]) == 0
         assert br.Scene.from_toml(capsys.readouterr().out) == scene

@@ -52,7 +52,7 @@ def test_a_title_that_looks_like_toml() -> None:
 
 @pytest.mark.parametrize("end", ["\x0b", "\x0c", "\x1c", "\x85", "\u2028", "\u2029", "\r", "\n"])
 def test_a_name_with_ends_of_lines_that_toml_does_not_know(end: str) -> None:
-    scene = br.bearing("6205").replace({"name": f"a{end}b"})
+    scene = br.bearing("6205", speed_rpm=1800.0).replace({"name": f"a{end}b"})
     assert s.Scene.from_toml(scene.to_toml(comments=True)) == scene
 
 

@@ -55,8 +55,8 @@ def test_a_name_is_taken_apart() -> None:
         "GJN": "polyurea grease, NLGI 2",
     }
     assert (
-        br.bearing("6309-2Z/C3GJN").rows[0].clearance
-        == br.bearing("6309", clearance="C3").rows[0].clearance
+        br.bearing("6309-2Z/C3GJN", speed_rpm=1800.0).rows[0].clearance
+        == br.bearing("6309", clearance="C3", speed_rpm=1800.0).rows[0].clearance
     )
 
 
@@ -85,7 +85,7 @@ def test_marks_are_a_table_of_meanings() -> None:
 def test_what_may_be_another_bearing_is_doubted_and_taken(name: str, message: str) -> None:
     """Literature of the last: SKF prints C₀ 11.6 kN of a 6305, NSK 11.2."""
     with pytest.warns(br.SceneWarning, match=message):
-        assert br.bearing(name).name in ("6205", "6305")
+        assert br.bearing(name, speed_rpm=1800.0).name in ("6205", "6305")
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         assert name in br.catalogue
@@ -113,7 +113,7 @@ def test_what_may_be_another_bearing_is_doubted_and_taken(name: str, message: st
 )  # fmt: skip
 def test_bearings_without_balls_are_refused_by_their_kind(name: str, message: str) -> None:
     with pytest.raises(br.SceneError, match=message) as refused:
-        br.bearing(name)
+        br.bearing(name, speed_rpm=1800.0)
     assert refused.value.path == "designation"
     assert name not in br.catalogue
 

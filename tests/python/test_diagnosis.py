@@ -658,7 +658,7 @@ REFUSED: dict[str, Callable[[], object]] = {
     "record = 'a.wav': a record": lambda: br.diagnose("a.wav", "6205", RPM),
     "bearing = 6205": lambda: judged(X, 6205),  # type: ignore[arg-type]
     "bearing.bsf = 'x'": lambda: judged(X, vars(ORDERS) | {"bsf": "x"}),
-    "row = 1": lambda: judged(X, br.bearing("6205"), row=1),
+    "row = 1": lambda: judged(X, br.bearing("6205", speed_rpm=1800.0), row=1),
     "part = 'shaft'": lambda: judged(X).plot("shaft"),  # type: ignore[arg-type]
 }
 

@@ -80,12 +80,12 @@ def test_a_bearing_by_its_size_runs_and_says_what_it_is() -> None:
     assert made.static_rating == pytest.approx(7850.0, rel=0.01)
     assert made.designation == "25x52x15 deep groove"
     assert made.sources.balls.startswith("estimated")
-    assert br.bearing(made, radial_load=500.0).doubts() == ()
+    assert br.bearing(made, radial_load=500.0, speed_rpm=1800.0).doubts() == ()
     assert br.catalogue["6205"].uncertainty is None
     pair = br.Bearing.from_dimensions(30e-3, 62e-3, 23.8e-3, kind="double row")  # type: ignore[arg-type]
     assert pair.kind == "double_row"
     assert pair.contact_angle == pytest.approx(math.radians(25.0))
-    assert len(br.bearing(pair).rows) == 2
+    assert len(br.bearing(pair, speed_rpm=1800.0).rows) == 2
     steep = again(br.catalogue["7308B"])
     assert steep.contact_angle == pytest.approx(math.radians(40.0))
     assert br.fault_frequencies(replace(made, ball_count=8), 60.0).bpfo < made.orders.bpfo

@@ -140,7 +140,7 @@ def test_the_command_line_reports_doubts(
 def test_what_misleads_is_reported_by_its_field(changes: dict[str, object], path: str) -> None:
     """Truth: each was simulated without a word."""
     spall = br.defects.spall(on="outer_race", width_mm=1.0)
-    scene = br.bearing("6205", radial_load=500.0, axial_load=50.0, defects=spall)
+    scene = br.bearing("6205", radial_load=500.0, axial_load=50.0, defects=spall, speed_rpm=1800.0)
     assert scene.doubts() == ()
     changed = scene.replace(changes)
     assert [text for text in changed.doubts() if text.startswith(path)], changed.doubts()
@@ -150,13 +150,13 @@ def test_units_of_the_arguments_are_reported() -> None:
     """Truth: 29.95 turns a second are 1797 a minute, and a spall of a micrometre is none."""
     slow = br.bearing("6205", radial_load=500.0, speed_rpm=29.95)
     assert [text.split(" =")[0] for text in slow.doubts()] == ["drive.speed"]
-    light = br.bearing("6205", radial_load=1.5)
+    light = br.bearing("6205", radial_load=1.5, speed_rpm=1800.0)
     assert [text.split(" =")[0] for text in light.doubts()] == ["loads.radial.force"]
 
 
 def test_thrust_away_from_the_contacts_is_doubted() -> None:
     """Truth: an angular contact bearing takes thrust one way; `br.bearing` refuses what `replace` lets by."""
-    scene = br.bearing("7205B", radial_load=100.0, axial_load=500.0)
+    scene = br.bearing("7205B", radial_load=100.0, axial_load=500.0, speed_rpm=1800.0)
     assert scene.doubts() == ()
     (doubt,) = scene.replace({"loads.axial.force": -500.0}).doubts()
     assert doubt.startswith("thrust on the inner ring = -500 N: ")
@@ -167,7 +167,7 @@ def test_other_rings_without_other_rows_are_doubted() -> None:
     other = dataclasses.replace(
         br.catalogue["6310"], bore=60e-3, outside_diameter=130e-3, width=31e-3
     )
-    (doubt,) = br.bearing(other).doubts()
+    (doubt,) = br.bearing(other, speed_rpm=1800.0).doubts()
     assert doubt.startswith("rows[0].pitch_diameter = 80 mm: ")
     for name in ("608", "6310", "61808", "16008", "6416", "7308B", "3308"):
-        assert br.bearing(name).doubts() == ()
+        assert br.bearing(name, speed_rpm=1800.0).doubts() == ()

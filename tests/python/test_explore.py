@@ -29,7 +29,7 @@ SVG = "{http://www.w3.org/2000/svg}"
 
 @pytest.fixture
 def begun() -> Settings:
-    return Settings.of(br.bearing("6205", radial_load=1000.0))
+    return Settings.of(br.bearing("6205", radial_load=1000.0, speed_rpm=1800.0))
 
 
 def answered(settings: Settings) -> Live:
@@ -49,7 +49,7 @@ def test_settings_that_nobody_moved_leave_the_scene_as_it_was(name: str) -> None
 
 
 def test_a_scene_that_records_nothing_records_what_the_page_shows() -> None:
-    scene = Settings.of(br.bearing("6205").replace({"probes": {}})).scene()
+    scene = Settings.of(br.bearing("6205", speed_rpm=1800.0).replace({"probes": {}})).scene()
     assert {"outer.ay", "inner.theta"} <= set(br.simulate(scene, duration=1e-3, settle=0.0))
 
 
@@ -91,7 +91,7 @@ def test_a_mount_keeps_its_damping_ratio(begun: Settings) -> None:
 def test_what_is_no_one_number_has_no_control() -> None:
     rising = br.scene.Ramp(from_=50.0, to=190.0, start=0.0, end=0.1)
     sine = br.scene.Sine(mean=800.0, amplitude=300.0, frequency=25.0, phase=0.0)
-    scene = br.bearing("7208B", housing=None).replace(
+    scene = br.bearing("7208B", housing=None, speed_rpm=1800.0).replace(
         {"drive": br.scene.SpeedDrive(rising), "loads.radial.force": sine}
     )
     begun = Settings.of(scene)
@@ -104,7 +104,7 @@ def test_what_is_no_one_number_has_no_control() -> None:
 
 @pytest.mark.parametrize("name", ["6205", "7208B", "3206", "618/5"])
 def test_controls_stand_on_a_step_within_their_range_and_change_nothing(name: str) -> None:
-    begun = Settings.of(br.bearing(name))
+    begun = Settings.of(br.bearing(name, speed_rpm=1800.0))
     made = controls(begun)
     for each in made:
         assert each.start <= each.value <= each.stop
@@ -119,17 +119,22 @@ def test_controls_stand_on_a_step_within_their_range_and_change_nothing(name: st
 
 
 def test_bearings_by_name_by_size_and_from_a_file(tmp_path: Path) -> None:
-    assert chosen.named("SKF 6205-2RSH/C3").rows[0].clearance > br.bearing("6205").rows[0].clearance
+    assert (
+        chosen.named("SKF 6205-2RSH/C3").rows[0].clearance
+        > br.bearing("6205", speed_rpm=1800.0).rows[0].clearance
+    )
     assert chosen.named("wheel-bearing") == br.presets.wheel_bearing()
-    assert chosen.named("6205", "bare ring") == br.bearing("6205", housing=None)
+    assert chosen.named("6205", "bare ring") == br.bearing("6205", housing=None, speed_rpm=1800.0)
     with pytest.raises(br.SceneError, match=r"NU205.*roller"):
         chosen.named("NU205")
     scene, made = chosen.described(80.0, 170.0, 39.0, ball_count=8, ball_diameter_mm=28.58)
     assert scene.rows[0].ball_count == 8
     assert scene.rows[0].ball_diameter == pytest.approx(28.58e-3)
     assert "An estimate" in chosen.summary(scene, made)
-    (tmp_path / "a.toml").write_text(br.bearing("6309").to_toml(), encoding="utf-8")
-    assert chosen.read_file(tmp_path / "a.toml") == br.bearing("6309")
+    (tmp_path / "a.toml").write_text(
+        br.bearing("6309", speed_rpm=1800.0).to_toml(), encoding="utf-8"
+    )
+    assert chosen.read_file(tmp_path / "a.toml") == br.bearing("6309", speed_rpm=1800.0)
     assert chosen.read_file(tmp_path / "a.csv") is None
 
 
@@ -192,7 +197,7 @@ def test_a_drawing_shows_each_row_and_escapes_names() -> None:
 def test_a_bearing_that_cannot_carry_its_load_says_so(begun: Settings) -> None:
     with pytest.raises(br.BallraceError):
         answered(begun.moved(radial_load=1e9))
-    held = Settings.of(br.bearing("7208B"))
+    held = Settings.of(br.bearing("7208B", speed_rpm=1800.0))
     assert answered(held).doubts == ()
     assert "the rings come apart" in at_rest.page(answered(held.moved(axial_load=0.0)))
 
@@ -221,7 +226,7 @@ def test_a_run_that_waits_is_replaced_before_it_begins(begun: Settings) -> None:
 
 
 def test_a_run_that_fails_says_why() -> None:
-    scene = br.bearing("6205").replace({"loads.radial.force": 1e9})
+    scene = br.bearing("6205", speed_rpm=1800.0).replace({"loads.radial.force": 1e9})
     run = Runner().start(scene, duration=0.01)
     assert run.wait(60.0)
     assert run.state == "failed"
@@ -231,7 +236,9 @@ def test_a_run_that_fails_says_why() -> None:
 @pytest.fixture(scope="module")
 def spalled() -> br.Signals:
     spall = br.defects.spall(on="outer_race", width_mm=1.5)
-    scene = Settings.of(br.bearing("6205", radial_load=1000.0, defects=spall)).scene()
+    scene = Settings.of(
+        br.bearing("6205", radial_load=1000.0, defects=spall, speed_rpm=1800.0)
+    ).scene()
     run = Runner().start(scene, duration=0.4)
     assert run.wait(120.0)
     assert run.out is not None

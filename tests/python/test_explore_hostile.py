@@ -72,7 +72,7 @@ def browser() -> Iterator[Browser]:
 
 def hostile_scene(text: str) -> br.Scene:
     """A scene with a text wherever one may stand: names of loads and so on have letters, digits, _ and - alone."""
-    scene = br.bearing("6205", radial_load=1000.0)
+    scene = br.bearing("6205", radial_load=1000.0, speed_rpm=1800.0)
     for part in ("loads", "probes"):
         with pytest.raises(br.SceneError, match="name of letters, digits"):
             scene.replace({part: {text: next(iter(getattr(scene, part).values()))}})
@@ -186,7 +186,7 @@ def test_the_policy_stops_what_came_into_the_page(browser: Browser, tmp_path: Pa
     And the file's own name is one that marimo could take for a pair.
     """
     given = tmp_path / "load=5.toml"
-    given.write_text(br.bearing("6309").to_toml(), encoding="utf-8")
+    given.write_text(br.bearing("6309", speed_rpm=1800.0).to_toml(), encoding="utf-8")
     with (
         served(given) as at,
         other_host() as (host, asked),

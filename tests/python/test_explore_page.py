@@ -248,7 +248,11 @@ def test_it_runs_when_idle(browser: Browser, explored: Page) -> None:
 
 def measured(folder: Path) -> Path:
     spall = br.defects.spall(on="outer_race", width_mm=2.0)
-    out = br.simulate(br.bearing("6205", radial_load=1500.0, defects=spall), duration=1.0, fs=20e3)
+    out = br.simulate(
+        br.bearing("6205", radial_load=1500.0, defects=spall, speed_rpm=1800.0),
+        duration=1.0,
+        fs=20e3,
+    )
     noise = np.random.default_rng(1).normal(scale=2.0, size=out.n_samples)
     path = folder / "pump.csv"
     br.Recording(
@@ -270,7 +274,9 @@ def test_a_dropped_record_is_judged(browser: Browser, explored: Page, tmp_path: 
 
 
 def test_it_begins_with_a_scene_or_a_record(browser: Browser, tmp_path: Path) -> None:
-    (tmp_path / "mine.toml").write_text(br.bearing("6309").to_toml(), encoding="utf-8")
+    (tmp_path / "mine.toml").write_text(
+        br.bearing("6309", speed_rpm=1800.0).to_toml(), encoding="utf-8"
+    )
     with served(tmp_path / "mine.toml") as at, shown(browser, at) as (page, _):
         page.wait_for_selector("text=/6309: 8 balls/")
     with served(measured(tmp_path)) as at, shown(browser, at) as (page, _):

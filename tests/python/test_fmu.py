@@ -28,7 +28,7 @@ STEP = 1e-5
 def scene() -> br.Scene:
     """A 6205 whose outer ring stands on springs."""
     spring = br.scene.Spring(stiffness=2e7, damping=100.0)
-    held = br.bearing("6205", radial_load=500.0)
+    held = br.bearing("6205", radial_load=500.0, speed_rpm=1800.0)
     return held.replace({"outer_ring.support.x": spring, "outer_ring.support.y": spring})
 
 
@@ -149,7 +149,9 @@ def driven(packed: Path, count: int = 1) -> Iterator[list[Driven]]:
 
 @pytest.mark.long
 @pytest.mark.parametrize(
-    "of", [br.bearing("6205"), scene(), damaged()], ids=["plain", "sprung", "motor"]
+    "of",
+    [br.bearing("6205", speed_rpm=1800.0), scene(), damaged()],
+    ids=["plain", "sprung", "motor"],
 )
 def test_the_description_validates_and_an_importer_runs_it(of: br.Scene, pack: Pack) -> None:
     """Literature: the schema of FMI 3.0 and the rules that FMPy checks."""
@@ -331,7 +333,7 @@ def test_the_guides_program_runs(pack: Pack, monkeypatch: pytest.MonkeyPatch) ->
     """The mass outside, which has its weight, shakes the ring and does not run away."""
     page = (ROOT / "docs" / "fmu.md").read_text(encoding="utf-8")
     ((program),) = re.findall(r"^```python no-run\n(.*?)^```", page, re.DOTALL | re.MULTILINE)
-    monkeypatch.chdir(pack(br.bearing("6205", radial_load=500.0)).parent)
+    monkeypatch.chdir(pack(br.bearing("6205", radial_load=500.0, speed_rpm=1800.0)).parent)
     names: dict[str, Any] = {}
     exec(program, names)
     assert 1e-7 < abs(names["y"]) < 1e-4

@@ -179,7 +179,7 @@ def everything() -> s.Scene:
     """A scene with every probe."""
     scene = br.bearing(
         "6205", radial_load=1500.0, lubricant="vg68", temperature_c=55.0,
-        defects={"spall": br.defects.spall(on="outer_race", width_mm=1.0)},
+        defects={"spall": br.defects.spall(on="outer_race", width_mm=1.0)}, speed_rpm=1800.0,
     )  # fmt: skip
     probes: dict[str, s.Probe] = {
         "outer": s.MotionProbe(body="outer"), "loads": s.ContactsProbe(row=0), "cage": s.CageProbe(row=0),

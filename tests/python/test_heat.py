@@ -142,7 +142,7 @@ def test_a_scene_runs_with_it_and_explain_says_it() -> None:
     found = operating_clearance(
         "6205", shaft_fit="k5", temperatures=Temperatures(inner=60.0, outer=50.0)
     )
-    scene = br.bearing("6205", radial_load=800.0)
+    scene = br.bearing("6205", radial_load=800.0, speed_rpm=1800.0)
     mounted = found.apply(scene)
     assert mounted.rows[0].clearance == found.clearance
     # Less clearance spreads the load over more balls.

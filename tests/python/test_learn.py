@@ -96,7 +96,7 @@ def test_records_and_arrays_have_the_same_features() -> None:
 
 
 def test_a_run_and_its_measurement_are_records() -> None:
-    out = br.simulate(br.bearing("6205", radial_load=500.0), duration=0.1)
+    out = br.simulate(br.bearing("6205", radial_load=500.0, speed_rpm=1800.0), duration=0.1)
     sensed = br.measure(out, logger=br.measuring.Logger(fs=12_000.0))
     found = br.learn.EnvelopeLines("6205").fit_transform([out, sensed])
     assert found.shape == (2, 10)
@@ -131,7 +131,7 @@ def test_in_a_pipeline_of_records() -> None:
         ("X", {}, br.Recording(columns={"a": np.ones(100)}, fs=FS)),
         ("highest", {"highest": 0.0}, [br.Recording(columns={"a": np.ones(100)}, fs=FS)]),
         ("step", {"highest": 1.0, "step": 0.5}, [br.Recording(columns={"a": np.ones(9)}, fs=FS)]),
-        ("row", {"bearing": br.bearing("6205"), "row": 1}, np.zeros((1, 100))),
+        ("row", {"bearing": br.bearing("6205", speed_rpm=1800.0), "row": 1}, np.zeros((1, 100))),
     ],
 )
 def test_what_is_missing_is_named(path: str, options: dict[str, Any], given: Any) -> None:

@@ -227,7 +227,7 @@ def test_blows_are_as_uneven_as_the_slip_says() -> None:
         }
         scene = br.bearing(
             "6205", radial_load=300.0, axial_load=80.0, housing=None,
-            defects=br.defects.spall(on="outer_race", width_mm=0.5),
+            defects=br.defects.spall(on="outer_race", width_mm=0.5), speed_rpm=1800.0,
         )  # fmt: skip
         out = br.simulate(
             scene.replace(row | {"rows[0].clearance": 5e-6}), duration=0.4, fs=48_000.0

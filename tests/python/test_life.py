@@ -41,7 +41,7 @@ def test_loads_that_are_known_are_taken() -> None:
         {"loads.radial.force": Sine(mean=1400.0, amplitude=100.0, frequency=2.0, phase=0.0)}
     )
     assert br.rating_life(swells, around=twice) == br.rating_life(swells)
-    other = br.load_distribution(br.bearing("6206", radial_load=500.0))
+    other = br.load_distribution(br.bearing("6206", radial_load=500.0, speed_rpm=1800.0))
     for wrong in (other, other.outer_load):
         with pytest.raises(br.SceneError, match=r"^around = "):
             br.rating_life(br.presets.motor(), around=wrong)  # type: ignore[arg-type]
@@ -53,13 +53,16 @@ def test_equivalent_load_of_iso_281() -> None:
     life = br.rating_life(deep(1000.0, relative))
     assert life.equivalent_load == pytest.approx(0.56 * 1000.0 + 1.71 * relative, rel=1e-6)
     assert br.rating_life(deep(1000.0, 150.0)).equivalent_load == pytest.approx(1000.0)
-    assert br.rating_life(br.bearing("7205B")).equivalent_load is None
+    assert br.rating_life(br.bearing("7205B", speed_rpm=1800.0)).equivalent_load is None
     assert br.rating_life(br.presets.wheel_bearing()).basic is None
 
 
 def test_life_falls_with_the_cube_and_a_bit_more() -> None:
     """Truth: L10r goes with load^-3 where the loaded zone stays as it is."""
-    scenes = [br.bearing("7210B", radial_load=f, axial_load=3.0 * f) for f in (1000.0, 2000.0)]
+    scenes = [
+        br.bearing("7210B", radial_load=f, axial_load=3.0 * f, speed_rpm=1800.0)
+        for f in (1000.0, 2000.0)
+    ]
     light, heavy = (br.rating_life(scene).reference for scene in scenes)
     assert light / heavy == pytest.approx(8.0, rel=0.05)
 
@@ -67,7 +70,7 @@ def test_life_falls_with_the_cube_and_a_bit_more() -> None:
 @pytest.mark.parametrize("name", ["6205", "6008", "6310", "7210B", "7205C"])
 def test_the_formula_meets_the_catalogue(name: str) -> None:
     """Truth: the makers' printed ratings."""
-    scene = br.bearing(name)
+    scene = br.bearing(name, speed_rpm=1800.0)
     printed = br.catalogue[name].dynamic_rating
     assert row_rating(scene.rows[0]) == pytest.approx(printed, rel=0.015)
     assert br.rating_life(scene).rating == printed
@@ -92,7 +95,7 @@ def test_two_rows_rate_as_iso_281_says() -> None:
 
 
 def test_wide_grooves_are_rated_less() -> None:
-    scene = br.bearing("6205").replace({"name": "wide"})
+    scene = br.bearing("6205", speed_rpm=1800.0).replace({"name": "wide"})
     wide = scene.replace({"rows[0].inner_conformity": 0.54})
     assert row_rating(wide.rows[0]) < 0.9 * row_rating(scene.rows[0])
     narrow = scene.replace({"rows[0].inner_conformity": 0.51})

@@ -19,7 +19,7 @@ from oils import astm_d341
 VG68 = Lubricant.named("vg68", temperature_c=55.0)
 
 MAKERS: list[Callable[..., br.Scene]] = [
-    lambda **oil: br.bearing("6205", radial_load=500.0, **oil),
+    lambda **oil: br.bearing("6205", radial_load=500.0, speed_rpm=1800.0, **oil),
     lambda **oil: br.presets.deep_groove_6205(500.0, **oil),
     lambda **oil: br.presets.wheel_bearing(3000.0, **oil),
 ]

@@ -89,7 +89,9 @@ def test_a_mesh_is_a_torque_with_what_follows_from_the_teeth() -> None:
 
 @pytest.mark.parametrize("arrangement", ["back_to_back", "face_to_face"])
 def test_preload_is_the_axial_force_of_each(arrangement: br.machines.Arrangement) -> None:
-    made = br.pair("7208B", arrangement=arrangement, preload=500.0, radial_load=0.0)
+    made = br.pair(
+        "7208B", arrangement=arrangement, preload=500.0, radial_load=0.0, speed_rpm=1500.0
+    )
     still = made.replace({"gravity": [0.0, 0.0, 0.0], "drive.speed": 10.0})
     forces = [float(each.force[2]) for each in reactions(still)]
     side = -1.0 if arrangement == "back_to_back" else 1.0
@@ -98,7 +100,7 @@ def test_preload_is_the_axial_force_of_each(arrangement: br.machines.Arrangement
 
 def test_preload_presses_as_hertz_and_jones_say() -> None:
     """Analytic: F = Z K δ^1.5 sin α', (A + δ) cos α' = A cos α, A of the grooves, way A (cos α tan α' - sin α)."""
-    row = br.pair("7208B", preload=800.0).rows[0]
+    row = br.pair("7208B", preload=800.0, speed_rpm=1500.0).rows[0]
     A = (row.outer_conformity + row.inner_conformity - 1.0) * row.ball_diameter
     alpha = row.contact_angle
     shallow = br.equilibrium(
@@ -126,24 +128,36 @@ def stiff(made: br.Scene) -> float:
 
 def test_back_to_back_is_stiff_against_tilting() -> None:
     tilts = [
-        stiff(br.pair("7208B", arrangement=a, preload=500.0, radial_load=300.0, at=0.06))
+        stiff(
+            br.pair(
+                "7208B", arrangement=a, preload=500.0, radial_load=300.0, at=0.06, speed_rpm=1500.0
+            )
+        )
         for a in ("back_to_back", "face_to_face")
     ]
     assert 2.0 * tilts[0] < tilts[1]
 
 
 def test_a_tandem_shares_thrust_and_needs_it() -> None:
-    made = br.pair("7208B", arrangement="tandem", radial_load=0.0, axial_load=3000.0)
+    made = br.pair(
+        "7208B", arrangement="tandem", radial_load=0.0, axial_load=3000.0, speed_rpm=1500.0
+    )
     forces = [each.force[2] for each in reactions(made)]
     assert forces == pytest.approx([-1500.0, -1500.0], rel=0.01)
     with pytest.raises(br.SceneError, match=r"above 839\.1 N, in tandem"):
-        br.pair("7208B", arrangement="tandem", radial_load=1000.0, axial_load=500.0)
+        br.pair(
+            "7208B", arrangement="tandem", radial_load=1000.0, axial_load=500.0, speed_rpm=1500.0
+        )
 
 
 def test_bearings_of_two_rows_and_named_sides_are_rows_of_the_scene() -> None:
-    made = br.shaft([("3206", 0.0), ("6204", 0.2)])
+    made = br.shaft([("3206", 0.0), ("6204", 0.2)], speed_rpm=1500.0)
     assert [round(row.axial_position, 4) for row in made.rows] == [-0.0051, 0.0051, 0.2]
-    steep = br.shaft([("7208B", 0.0, -1), ("7208B", 0.1, 1)], loads={"z": force(z=500.0, at=0.0)})
+    steep = br.shaft(
+        [("7208B", 0.0, -1), ("7208B", 0.1, 1)],
+        loads={"z": force(z=500.0, at=0.0)},
+        speed_rpm=1500.0,
+    )
     assert [row.side for row in steep.rows] == [-1, 1]
     assert made.name == "3206 + 6204"
     assert made.doubts() == ()
@@ -151,7 +165,9 @@ def test_bearings_of_two_rows_and_named_sides_are_rows_of_the_scene() -> None:
 
 def test_the_shaft_and_what_sits_on_it() -> None:
     """Analytic: a cylinder of the smaller bore, and a disc beside its middle."""
-    ring = br.shaft([("6206", -0.1), ("6206", 0.1)], masses=[(5.0, 0.05, 0.2)]).inner_ring
+    ring = br.shaft(
+        [("6206", -0.1), ("6206", 0.1)], masses=[(5.0, 0.05, 0.2)], speed_rpm=1500.0
+    ).inner_ring
     bar = 7850.0 * math.pi / 4.0 * 30e-3**2 * 0.2
     centre = 5.0 * 0.05 / (5.0 + bar)
     across = bar * (30e-3**2 / 16.0 + 0.2**2 / 12.0 + centre**2) + 5.0 * (
@@ -227,7 +243,7 @@ def test_the_motor_is_a_preset() -> None:
     ],
 )  # fmt: skip
 def test_a_shaft_names_what_is_wrong(arguments: dict[str, object], field: str) -> None:
-    good: dict[str, object] = {"bearings": BEARINGS}
+    good: dict[str, object] = {"bearings": BEARINGS, "speed_rpm": 1500.0}
     with pytest.raises(br.SceneError) as refused:
         br.shaft(**(good | arguments))  # type: ignore[arg-type]
     assert refused.value.path == field
@@ -235,15 +251,15 @@ def test_a_shaft_names_what_is_wrong(arguments: dict[str, object], field: str) -
 
 def test_bearings_side_by_side_touch_and_do_not_overlap() -> None:
     """By the widths of ISO 15: a 6309 has 25 mm, a 6207 17 mm; 21 mm from middle to middle they touch."""
-    assert len(br.shaft([("6207", 0.1), ("6309", 0.1 + 0.021)]).rows) == 2
+    assert len(br.shaft([("6207", 0.1), ("6309", 0.1 + 0.021)], speed_rpm=1500.0).rows) == 2
     allowed = r"^bearings = 6207 at 0\.1 m, 6309 at 0\.12 m: places 0\.021 m apart or more"
     with pytest.raises(br.SceneError, match=allowed):
-        br.shaft([("6309", 0.12), ("6207", 0.1)])
+        br.shaft([("6309", 0.12), ("6207", 0.1)], speed_rpm=1500.0)
 
 
 def test_one_defect_of_a_shaft_needs_no_name() -> None:
     spall = br.defects.spall(on="inner_race", width_mm=1.0, row=1)
-    assert dict(br.shaft(BEARINGS, defects=spall).defects)["spall"].row == 1
+    assert dict(br.shaft(BEARINGS, defects=spall, speed_rpm=1500.0).defects)["spall"].row == 1
 
 
 def test_reactions_are_of_a_scene() -> None:

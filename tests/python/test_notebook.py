@@ -44,7 +44,7 @@ def tags(svg: ET.Element, tag: str) -> list[ET.Element]:
 
 def test_a_scene_is_drawn_with_its_balls_load_and_damage() -> None:
     spall = br.defects.spall(on="outer_race", width_mm=1.0, angle=np.radians(-90.0))
-    made = br.bearing("6205", radial_load=800.0, defects=spall)
+    made = br.bearing("6205", radial_load=800.0, defects=spall, speed_rpm=1800.0)
     (svg,) = drawn(shown(made))
     circles = [{k: float(c.get(k, "nan")) for k in ("cx", "cy", "r")} for c in tags(svg, "circle")]
     # In metres: the outside diameter of a 6205, nine balls on their pitch circle, the spall at the bottom.
@@ -59,7 +59,7 @@ def test_a_scene_is_drawn_with_its_balls_load_and_damage() -> None:
 
 
 def test_a_scene_shows_its_doubts_or_why_it_is_refused() -> None:
-    made = br.bearing("6205")
+    made = br.bearing("6205", speed_rpm=1800.0)
     assert "<li>" not in shown(made)
     odd = made.replace({"rows[0].clearance": 2e-3})
     assert len(re.findall("<li>", shown(odd))) == len(odd.doubts()) > 0
@@ -68,14 +68,14 @@ def test_a_scene_shows_its_doubts_or_why_it_is_refused() -> None:
 
 
 def test_names_of_others_are_text() -> None:
-    named = br.bearing("6205").replace({"name": EVIL})
+    named = br.bearing("6205", speed_rpm=1800.0).replace({"name": EVIL})
     for of in (named, br.simulate(named, duration=1e-3), br.equilibrium(named)):
         assert "<script" not in shown(of)
     assert "<script" not in waveform(EVIL, EVIL, np.arange(3.0))
 
 
 def test_an_equilibrium_is_a_line_a_ball() -> None:
-    found = br.equilibrium(br.bearing("6205", radial_load=800.0))
+    found = br.equilibrium(br.bearing("6205", radial_load=800.0, speed_rpm=1800.0))
     html = shown(found)
     assert html.count("<tr>") == 1 + 9
     assert f"{found.outer_load.max():.1f}" in html
@@ -99,7 +99,7 @@ def test_a_waveform_keeps_every_peak() -> None:
 
 
 def test_explanation_and_campaign(tmp_path: Path) -> None:
-    scene = br.bearing("6205")
+    scene = br.bearing("6205", speed_rpm=1800.0)
     explanation = br.explain(scene)
     assert str(explanation).splitlines()[0][:20] in shown(explanation)
     done = br.campaign(
@@ -131,7 +131,7 @@ def test_a_single_run_shows_its_progress_in_a_notebook(monkeypatch: pytest.Monke
     shell.kernel = object()
     seen = io.StringIO()
     monkeypatch.setattr(sys, "stderr", seen)
-    br.simulate(br.bearing("6205"), duration=0.02, progress=True)
+    br.simulate(br.bearing("6205", speed_rpm=1800.0), duration=0.02, progress=True)
     lines = seen.getvalue().split("\r")
     assert any("6205  [" in line and "%" in line for line in lines)
     assert lines[-1] == ""

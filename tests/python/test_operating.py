@@ -73,12 +73,12 @@ def test_of_a_run_the_cage_is_measured() -> None:
 
 
 def test_without_a_balls_motion_there_is_no_slip() -> None:
-    out = br.simulate(br.bearing("6205"), duration=1e-3)
+    out = br.simulate(br.bearing("6205", speed_rpm=1800.0), duration=1e-3)
     assert br.fault_frequencies(out).slip is None
 
 
 def test_what_is_refused() -> None:
-    scene = br.bearing("6205")
+    scene = br.bearing("6205", speed_rpm=1800.0)
     run_up = replace(scene, drive=SpeedDrive(Ramp(from_=0.0, to=100.0, start=0.0, end=1.0)))
     for arguments, field in (
         (("6205",), "speed_rpm"),
@@ -211,7 +211,7 @@ def test_a_spall_lies_where_the_contact_runs_and_is_met() -> None:
 @pytest.mark.parametrize("name", ["6000", "6310", "6804", "7204B", "7218B"])
 @pytest.mark.parametrize("on", ["outer_race", "inner_race"])
 def test_a_spall_fits_any_bearing(name: str, on: Surface) -> None:
-    scene = br.bearing(name, defects=br.defects.spall(on=on, width_mm=1.2))
+    scene = br.bearing(name, defects=br.defects.spall(on=on, width_mm=1.2), speed_rpm=1800.0)
     br.simulate(scene, duration=1e-4, settle=0.0)
 
 
@@ -221,7 +221,7 @@ def test_a_dent_has_a_rim() -> None:
     assert (dent.width, dent.length) == (0.2e-3, 0.0)
     assert (dent.depth, dent.rim_height) == pytest.approx((8e-6, 0.3e-6))
     assert br.defects.dent(on="ball", diameter_mm=0.2, rim_height_mm=0.0).rim_height == 0.0
-    scene = br.bearing("6205", radial_load=500.0, defects=dent)
+    scene = br.bearing("6205", radial_load=500.0, defects=dent, speed_rpm=1800.0)
     met = br.simulate(scene, duration=0.02).defects["dent"]
     assert (met.placed, met.share) == ("contact", 1.0)
     with pytest.raises(br.SceneError, match="smaller than its contact"):
@@ -257,7 +257,7 @@ def test_depth_is_a_floor_and_a_ball_has_a_number() -> None:
     assert shallow.floor.depth == pytest.approx(0.05e-3)
     assert shallow.ball == 4
     assert br.defects.spall(on="ball", width_mm=1.0).ball == 0
-    br.bearing("6205", defects=shallow)
+    br.bearing("6205", defects=shallow, speed_rpm=1800.0)
 
 
 @pytest.mark.parametrize(

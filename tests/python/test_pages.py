@@ -41,7 +41,10 @@ def pages(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Write every kind of page; after the browser, so that none is made for nothing."""
     folder = tmp_path_factory.mktemp("pages")
     faulty = br.bearing(
-        "6205", radial_load=1500.0, defects=br.defects.spall(on="inner_race", width_mm=1.0)
+        "6205",
+        radial_load=1500.0,
+        defects=br.defects.spall(on="inner_race", width_mm=1.0),
+        speed_rpm=1800.0,
     )
     ball = br.scene.MotionProbe(body="row0.ball0", components=("x", "y"))
     out = br.simulate(faulty.replace({"probes.ball": ball}), duration=0.1)
@@ -50,7 +53,9 @@ def pages(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Path:
     rising = br.simulate(faulty.replace({"drive": speed}), duration=0.2)
     rising.report(folder / "run-up.html")
     br.simulate(br.presets.wheel_bearing(), duration=0.001).report(folder / "short.html")
-    br.simulate(br.bearing("7205B"), duration=0.03).report(folder / "angular.html")
+    br.simulate(br.bearing("7205B", speed_rpm=1800.0), duration=0.03).report(
+        folder / "angular.html"
+    )
     hostile = faulty.replace(
         {"name": '</script><script>console.error("in")</script>', "defects": {}}
     )

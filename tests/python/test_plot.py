@@ -66,7 +66,7 @@ def test_one_name_is_a_column(out: br.Signals) -> None:
 def faulty() -> br.Signals:
     """A spall of an outer race, with a ball that passes it."""
     defect = br.defects.spall(on="outer_race", width_mm=1.0)
-    scene = br.bearing("6205", radial_load=1000.0, defects=defect)
+    scene = br.bearing("6205", radial_load=1000.0, defects=defect, speed_rpm=1800.0)
     ball = br.scene.MotionProbe(body="row0.ball0", components=("x", "y"))
     return br.simulate(scene.replace({"probes.ball": ball}), duration=0.1)
 
@@ -92,7 +92,8 @@ def test_pictures_come_with_the_package_and_plotly_when_drawn() -> None:
 def test_a_missing_plotly_is_named_with_its_extra(tmp_path: Path) -> None:
     (tmp_path / "plotly.py").write_text("raise ImportError('none', name='plotly')")
     code = (
-        "import sys; sys.path.insert(0, sys.argv[1]); import ballrace as br; scene = br.bearing('6205')\n"
+        "import sys; sys.path.insert(0, sys.argv[1]); import ballrace as br\n"
+        "scene = br.bearing('6205', speed_rpm=1800.0)\n"
         "eq = br.equilibrium(scene); plot = br.plot\n"
         "for draw, of in ((plot.section, scene), (plot.unrolled, scene), (plot.load_distribution, eq)):\n"
         "    try: draw(of)\n"
@@ -158,7 +159,7 @@ def test_impacts_stand_where_blows_are() -> None:
 
 @pytest.mark.filterwarnings("ignore:defects.*on = ball")
 def test_fault_lines_stand_at_the_operating_angle() -> None:
-    scene = br.bearing("6205", radial_load=300.0, axial_load=300.0)
+    scene = br.bearing("6205", radial_load=300.0, axial_load=300.0, speed_rpm=1800.0)
     defect = br.defects.spall(on="ball", width_mm=0.5)
     out = br.simulate(scene.replace({"defects.d": defect}), duration=0.05)
     rates = br.fault_frequencies(out)
@@ -177,7 +178,7 @@ def test_fault_lines_stand_at_the_operating_angle() -> None:
 @pytest.mark.parametrize(("length_mm", "hits"), [(1.0, 1), (5.0, 2)])
 def test_the_lines_of_a_ball_are_those_the_model_has(length_mm: float, hits: int) -> None:
     """Truth: the rate at which a ball of the run turned, once or twice of which its defect strikes."""
-    scene = br.bearing("6205", radial_load=300.0, axial_load=300.0)
+    scene = br.bearing("6205", radial_load=300.0, axial_load=300.0, speed_rpm=1800.0)
     offset: br.scene.AxialOffset = 0.0 if hits == 2 else "contact"
     defect = br.defects.spall(on="ball", width_mm=0.5, length_mm=length_mm, axial_offset=offset)
     ball = br.scene.MotionProbe(body="row0.ball0", components=("x", "y", "theta"))
@@ -217,7 +218,7 @@ def test_spectra_lie_over_each_other_in_one_figure(faulty: br.Signals) -> None:
 def test_ellipses_are_those_of_hertz() -> None:
     """Truth: Brewe and Hamrock's fit of the axes, κ = 1.0339 (R_y/R_x)^0.636, within 3 % of the integrals."""
     for name in ("6205", "7205B", "6310"):
-        row = br.bearing(name).rows[0]
+        row = br.bearing(name, speed_rpm=1800.0).rows[0]
         gamma = row.ball_diameter * np.cos(row.contact_angle) / row.pitch_diameter
         races: tuple[Literal["outer", "inner"], ...] = ("outer", "inner")
         for race, rolling, f in zip(
@@ -225,7 +226,7 @@ def test_ellipses_are_those_of_hertz() -> None:
         ):  # fmt: skip
             fitted = 1.0339 * (rolling / (1.0 - 0.5 / f)) ** 0.636
             assert axis_ratio(row, race) == pytest.approx(fitted, rel=0.03)
-    eq = br.equilibrium(br.bearing("6205", radial_load=2000.0))
+    eq = br.equilibrium(br.bearing("6205", radial_load=2000.0, speed_rpm=1800.0))
     a, b = semi_axes(row, "inner", eq.inner_load, eq.inner_pressure)
     loaded = eq.inner_load > 0.0
     area = np.pi * a * b * eq.inner_pressure
@@ -264,14 +265,14 @@ def test_section_has_the_contact_angles_of_the_model(wheel: br.Scene) -> None:
     dashed = [d for d in fig.data if d.line.dash == "dash"]
     assert dashed[0].x[1] > dashed[0].x[0]  # row 0, from inside to outside at the top
     assert dashed[2].x[1] < dashed[2].x[0]
-    given = outlines(br.bearing("6205"))
+    given = outlines(br.bearing("6205", speed_rpm=1800.0))
     assert (given.outside, given.bore, given.assumed) == (26.0, 12.5, False)
     assert outlines(wheel).assumed
 
 
 def test_grooves_touch_the_balls_at_the_contact_angle() -> None:
     """Truth: without clearance ball and race share a point there, on either side."""
-    rows = [*br.presets.wheel_bearing().rows, br.bearing("7205B").rows[0]]
+    rows = [*br.presets.wheel_bearing().rows, br.bearing("7205B", speed_rpm=1800.0).rows[0]]
     for row in rows:
         centre = np.array([1e3 * row.axial_position, 0.5e3 * row.pitch_diameter])
         angle = row.side * row.contact_angle
@@ -443,7 +444,7 @@ def test_a_page_of_one_figure_is_whole(tmp_path: Path, wheel: br.Scene) -> None:
 def test_marks_of_many_hits_are_thinned() -> None:
     """Of 300 hits in a second every third is marked, and the legend says so."""
     rates = br.fault_frequencies(
-        br.bearing("6205"), 300.0 / br.catalogue["6205"].orders.bpfo * 60.0
+        br.bearing("6205", speed_rpm=1800.0), 300.0 / br.catalogue["6205"].orders.bpfo * 60.0
     )
     x = np.random.default_rng(1).normal(size=6000)
     marks = br.plot.impacts(x, fs=6000.0, rates=rates, faults=["outer_race"]).data[1]
@@ -456,7 +457,7 @@ def test_a_picture_is_written_as_its_ending_says(tmp_path: Path) -> None:
     pytest.importorskip("kaleido", reason="kaleido is not installed")
     if not any(map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))):
         pytest.skip("there is no browser in which kaleido draws")
-    fig = br.plot.section(br.bearing("6205"))
+    fig = br.plot.section(br.bearing("6205", speed_rpm=1800.0))
     br.plot.write(fig, tmp_path / "section.png")
     br.plot.write(fig, tmp_path / "section.svg")
     assert (tmp_path / "section.png").read_bytes().startswith(b"\x89PNG")
@@ -468,7 +469,9 @@ def test_a_picture_without_kaleido_says_what_to_install(
 ) -> None:
     monkeypatch.setitem(sys.modules, "kaleido", None)
     with pytest.raises(ImportError, match=r'pip install "ballrace\[image\]"'):
-        br.plot.write(br.plot.section(br.bearing("6205")), tmp_path / "section.png")
+        br.plot.write(
+            br.plot.section(br.bearing("6205", speed_rpm=1800.0)), tmp_path / "section.png"
+        )
     assert list(tmp_path.iterdir()) == []
 
 

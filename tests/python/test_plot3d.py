@@ -20,7 +20,7 @@ def out() -> br.Signals:
         "outside": br.defects.spall(on="outer_race", width_mm=1.5, angle=-1.5),
         "rolls": br.defects.spall(on="ball", width_mm=1.0, ball=0),
     }
-    scene = br.bearing("6205", radial_load=2000.0, defects=spalls)
+    scene = br.bearing("6205", radial_load=2000.0, defects=spalls, speed_rpm=1800.0)
     return br.simulate(scene.replace({"probes": br.plot.probes(scene)}), duration=0.01, settle=0.0)
 
 
@@ -96,7 +96,9 @@ def test_a_ball_has_a_spot_and_its_damage(out: br.Signals) -> None:
     assert np.argwhere(spots == 2)[:, 0].tolist() == [0]
 
 
-@pytest.mark.parametrize("scene", [br.bearing("6205"), br.presets.wheel_bearing(3000.0)])
+@pytest.mark.parametrize(
+    "scene", [br.bearing("6205", speed_rpm=1800.0), br.presets.wheel_bearing(3000.0)]
+)
 def test_a_page_of_200_pictures_is_below_6_mb(scene: br.Scene, tmp_path: Path) -> None:
     """Of 9 and of 13 balls; plotly.js has 4.8 MB of it."""
     run = br.simulate(scene.replace({"probes": br.plot.probes(scene)}), duration=0.006, settle=0.0)

@@ -102,7 +102,9 @@ def test_warnings_stand_on_the_page(wheel: br.Scene, tmp_path: Path) -> None:
 
 def test_a_bearing_that_no_equilibrium_holds(tmp_path: Path) -> None:
     """A start that rolls needs none; the page says what it lacks."""
-    scene = br.bearing("6205", radial_load=0.0).replace({"gravity": [0.0, 0.0, 0.0]})
+    scene = br.bearing("6205", radial_load=0.0, speed_rpm=1800.0).replace(
+        {"gravity": [0.0, 0.0, 0.0]}
+    )
     out = br.simulate(scene, duration=5e-4, start="rolling", settle=0.0)
     with pytest.raises(br.EquilibriumError):
         br.equilibrium(scene)
@@ -232,7 +234,9 @@ NO_VERDICT = {
 @pytest.mark.parametrize("duration", [4e-5, 0.02])
 @pytest.mark.filterwarnings("ignore::ballrace.SceneWarning")
 def test_every_scene_that_runs_has_a_report(name: str, duration: float, tmp_path: Path) -> None:
-    out = br.simulate(br.bearing("6205").replace(ODD[name]), duration=duration, settle=0.0)
+    out = br.simulate(
+        br.bearing("6205", speed_rpm=1800.0).replace(ODD[name]), duration=duration, settle=0.0
+    )
     out.report(tmp_path / "r.html")
     text = text_of(tmp_path / "r.html")
     assert "Provenance" in text

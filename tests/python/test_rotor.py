@@ -94,7 +94,9 @@ def test_bad_arguments_are_refused_by_name(scene: br.Scene) -> None:
     with pytest.raises(EquilibriumError) as raised:
         br.stiffness_table(scene, {"radial": [200.0, 1e7]})
     assert raised.value.__notes__ == ["in load case 1: radial = 1e+07 N"]
-    oil = br.bearing("6205", radial_load=500.0, lubricant="vg68", temperature_c=50.0)
+    oil = br.bearing(
+        "6205", radial_load=500.0, lubricant="vg68", temperature_c=50.0, speed_rpm=1800.0
+    )
     with pytest.raises(br.SceneError, match="reference_speed") as refused:
         br.stiffness_table(oil, speeds_rpm=[1000.0, 0.0])
     assert refused.value.__notes__[0].endswith("at 0 rev/min")
@@ -142,7 +144,7 @@ def test_the_damping_is_the_decay_of_a_run(case: str, within: float) -> None:
     if case == "oil":
         scene = br.bearing(
             "6205", radial_load=0.0, axial_load=300.0, housing=None,
-            lubricant="vg68", temperature_c=50.0,
+            lubricant="vg68", temperature_c=50.0, speed_rpm=1800.0,
         )  # fmt: skip
     changes: dict[str, object] = {
         "gravity": (0.0, 0.0, 0.0),

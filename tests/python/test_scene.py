@@ -563,7 +563,9 @@ def test_what_keeps_axial_places_is_refused_where_one_is_given(wheel: s.Scene, a
 def test_rings_that_are_led_are_not_the_record() -> None:
     """Their motion is known; the loads of the contacts are not."""
     led = {f"inner_ring.support.{d}": s.Given(-2e-5 if d == "y" else 0.0) for d in "xyz"}
-    held = br.bearing("6205").replace({"probes": {}, "outer_ring.support": s.Support(), **led})
+    held = br.bearing("6205", speed_rpm=1800.0).replace(
+        {"probes": {}, "outer_ring.support": s.Support(), **led}
+    )
     assert br.simulate(held, duration=1e-3, settle=0.0).names[0] == "row0.ball0.outer.load"
 
 
@@ -666,7 +668,7 @@ def test_a_defect_given_alone_has_the_name_of_its_shape() -> None:
         (br.defects.pit(on="outer_race", diameter_mm=0.2), "pit"),
         (br.defects.dent(on="outer_race", diameter_mm=0.2), "dent"),
     ]:
-        scene = br.bearing("6205", radial_load=500.0, defects=defect)
+        scene = br.bearing("6205", radial_load=500.0, defects=defect, speed_rpm=1800.0)
         assert list(scene.defects) == [name]
     # The name of before is told; a document that has it keeps it.
     with pytest.raises(br.SceneError, match="defect given alone is named by its shape"):
@@ -683,7 +685,7 @@ def test_documents_of_patches_do_not_name_shapes(wheel: s.Scene) -> None:
 def test_a_spall_between_steep_walls_is_placed_with_its_numbers() -> None:
     """Half a contact's width wider, and circles of a quarter of the ball's diameter."""
     spall = br.defects.spall(on="outer_race", width_mm=0.8, walls="steep")
-    scene = br.bearing("6205", radial_load=500.0, defects=spall)
+    scene = br.bearing("6205", radial_load=500.0, defects=spall, speed_rpm=1800.0)
     assert s.Scene.from_toml(scene.to_toml()) == scene
     assert scene.to_dict()["defects"]["spall"]["walls"] == "steep"
     out = br.simulate(scene, duration=0.01)
@@ -746,7 +748,8 @@ def test_load_reads_files(tmp_path: Any, wheel: s.Scene) -> None:
 
 def test_repr_says_what_there_is(wheel: s.Scene) -> None:
     assert repr(wheel) == (
-        "<Scene 'wheel bearing': 13 + 13 balls; loads: axial, radial; defects: spall; probes: inner, outer>"
+        "<Scene 'wheel bearing': 13 + 13 balls; loads: axial 3000 N, radial 7000 N; "
+        "defects: spall; probes: inner, outer>"
     )
 
 

@@ -127,7 +127,10 @@ def test_features_and_the_order_map_of_a_run_from_rest_say_from_when() -> None:
 
     ramp = br.scene.Ramp(from_=0.0, to=314.0, start=0.0, end=0.2)
     scene = br.bearing(
-        "6205", radial_load=1500.0, defects=br.defects.spall(on="outer_race", width_mm=1.0)
+        "6205",
+        radial_load=1500.0,
+        defects=br.defects.spall(on="outer_race", width_mm=1.0),
+        speed_rpm=1800.0,
     ).replace({"drive": br.scene.SpeedDrive(ramp)})
     out = br.simulate(scene, duration=0.2, fs=25_000.0, settle=0.0)
     found = out.features(columns=["outer.ay"])

@@ -95,3 +95,12 @@ def test_around_orders_the_balls(scene: br.Scene) -> None:
 def test_positions_are_checked(scene: br.Scene, positions: object) -> None:
     with pytest.raises(br.SceneError, match="positions"):
         br.load_distribution(scene, positions=positions)  # type: ignore[arg-type]
+
+
+def test_loaded_balls_are_counted_by_one_rule() -> None:
+    """Truth: a tenth of the largest load on the inner race; 2 N of centrifugal force load no ball."""
+    scene = br.bearing("6205", radial_load=500.0, speed_rpm=6000.0)
+    eq = br.equilibrium(scene)
+    assert np.all(eq.outer_load > 1.0)
+    np.testing.assert_array_equal(eq.loaded, eq.inner_load > 0.1 * eq.inner_load.max())
+    assert repr(eq).startswith("<Equilibrium: 3 of 9 balls loaded")

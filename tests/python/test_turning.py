@@ -86,7 +86,9 @@ def test_by_default_the_shaft_of_a_hub_stands() -> None:
         -600.0 * TURN,
         600.0 * TURN,
     ]
-    assert br.shaft([("6204", 0.0), ("6204", 0.05)]).drive == SpeedDrive(1500.0 * TURN)
+    assert br.shaft([("6204", 0.0), ("6204", 0.05)], speed_rpm=1500.0).drive == SpeedDrive(
+        1500.0 * TURN
+    )
     both = br.pair("7205B", speed_rpm=300.0, outer_rpm=-600.0)
     assert both.drive == SpeedDrive(300.0 * TURN)
     with pytest.raises(
@@ -279,7 +281,7 @@ def test_the_page_of_explore_has_both_speeds() -> None:
     begun = Settings.of(br.bearing("6205", radial_load=800.0, outer_rpm=1800.0))
     assert (begun.speed_rpm, begun.outer_rpm) == pytest.approx((0.0, 1800.0))
     assert {"speed_rpm", "outer_rpm"} <= {each.field for each in controls(begun)}
-    assert Settings.of(br.bearing("6205")).outer_rpm is None
+    assert Settings.of(br.bearing("6205", speed_rpm=1800.0)).outer_rpm is None
     moved = begun.moved(outer_rpm=900.0).scene()
     assert moved.drive == SpeedDrive(0.0)
     assert moved.outer_speed == pytest.approx(900.0 * TURN)

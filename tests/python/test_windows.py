@@ -39,7 +39,7 @@ def test_windows_are_the_samples(run: br.Signals) -> None:
 def test_a_measurement_has_the_labels_of_its_run() -> None:
     """A load that rises by 100 N/s, of which half a second is over when the measurement begins."""
     load = Ramp(from_=100.0, to=200.0, start=0.0, end=1.0)
-    scene = br.bearing("6205", defects=br.defects.spall(on="ball", width_mm=1.0))
+    scene = br.bearing("6205", defects=br.defects.spall(on="ball", width_mm=1.0), speed_rpm=1800.0)
     scene = scene.replace({"loads.radial.force": load})
     x = np.arange(100.0)
     sensed = br.measuring.Measurement(x=x, fs=1000.0, start=0.5, scene=scene)

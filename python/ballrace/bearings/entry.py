@@ -143,7 +143,7 @@ class Bearing:
         (3.14, 0.53)
         >>> round(br.catalogue["6316"].orders.bpfo, 2)
         3.09
-        >>> scene = br.bearing(made, radial_load=3000.0)
+        >>> scene = br.bearing(made, radial_load=3000.0, speed_rpm=1800.0)
         """
         from .estimate import estimated
 

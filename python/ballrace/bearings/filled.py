@@ -51,7 +51,6 @@ def filled(
     outer_ring: Ring,
     inner_ring: Ring,
     speed_rpm: float | None,
-    usual_rpm: float,
     outer_rpm: float | None,
     loads: Mapping[str, Load] | None,
     unbalances: Mapping[str, Unbalance] | None = None,
@@ -61,15 +60,17 @@ def filled(
 ) -> Scene:
     """Return the checked scene; the fields are those of :class:`ballrace.Scene`, the arguments of ``bearing``.
 
-    Without a speed the inner ring turns at ``usual_rpm``, or stands where the outer ring turns.
+    Without a speed the inner ring stands, where the outer ring turns.
 
     Raises
     ------
     SceneError
         An argument is not usable.
     """
-    if speed_rpm is None:
-        speed_rpm = usual_rpm if outer_rpm is None else 0.0
+    if speed_rpm is None and outer_rpm is None:
+        allowed = "the speed of the inner ring [rev/min], such as speed_rpm=1500.0, or outer_rpm"
+        raise SceneError("speed_rpm", "None", allowed)
+    speed_rpm = 0.0 if speed_rpm is None else speed_rpm
     speed_rpm = finite("speed_rpm", speed_rpm, "rev/min")
     if outer_rpm is not None:
         outer_rpm = finite("outer_rpm", outer_rpm, "rev/min")

@@ -43,7 +43,7 @@ class Pedestal:
     --------
     >>> import ballrace as br
     >>> stiff = br.Pedestal(mass=3.0, stiffness=1.2e8, damping=1100.0)  # 1 kHz, 3 %
-    >>> br.bearing("6205", housing=stiff).outer_ring.mass
+    >>> br.bearing("6205", housing=stiff, speed_rpm=1800.0).outer_ring.mass
     3.0
     """
 

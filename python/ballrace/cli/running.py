@@ -119,7 +119,9 @@ def _scene(options: argparse.Namespace) -> None:
     name = options.name.replace("-", "_")
     if name not in presets.names():
         try:
-            bare = {"housing": None} if options.housing == "none" else {}
+            bare: dict[str, Any] = {"housing": None} if options.housing == "none" else {}
+            if options.rpm is None and options.outer_rpm is None:
+                bare["speed_rpm"] = 1800.0
             scene = bearing(options.name, **(given | bare))
         except SceneError as error:
             if error.path != "designation":

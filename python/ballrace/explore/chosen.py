@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 __all__ = ["described", "named", "read_file", "summary"]
 
 Housing = Literal["pedestal", "bare ring"]
+_SPEED = 1800.0
+"""Where the slider of the speed begins [rev/min]."""
 
 
 def named(name: str, housing: Housing = "pedestal") -> Scene:
@@ -34,7 +36,7 @@ def named(name: str, housing: Housing = "pedestal") -> Scene:
     if plain in presets():
         ready: Scene = getattr(made, plain)()
         return ready
-    return bearing(name.strip(), housing=_housing(housing))
+    return bearing(name.strip(), speed_rpm=_SPEED, housing=_housing(housing))
 
 
 def described(
@@ -65,7 +67,7 @@ def described(
         made = replace(made, ball_count=ball_count)
     if ball_diameter_mm is not None:
         made = replace(made, ball_diameter=1e-3 * ball_diameter_mm)
-    return bearing(made, housing=_housing(housing)), made
+    return bearing(made, speed_rpm=_SPEED, housing=_housing(housing)), made
 
 
 def read_file(path: Path) -> Scene | None:

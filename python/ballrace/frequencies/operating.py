@@ -241,7 +241,7 @@ def spin_of(scene: Scene, rates: FaultFrequencies, row: int = 0) -> tuple[float,
     Examples
     --------
     >>> import ballrace as br
-    >>> scene = br.bearing("6205", radial_load=300.0, axial_load=140.0)
+    >>> scene = br.bearing("6205", radial_load=300.0, axial_load=140.0, speed_rpm=1800.0)
     >>> spalled = scene.replace({"defects.d": br.defects.spall(on="ball", width_mm=0.5)})
     >>> rates = br.fault_frequencies(spalled)
     >>> order, hits = spin_of(spalled, rates)

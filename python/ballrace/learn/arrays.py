@@ -72,7 +72,7 @@ def examples(
     Examples
     --------
     >>> import ballrace as br
-    >>> out = br.simulate(br.bearing("6205"), duration=0.05, fs=10_000.0)
+    >>> out = br.simulate(br.bearing("6205", speed_rpm=1800.0), duration=0.05, fs=10_000.0)
     >>> examples(out.to_windows(100, columns="outer.ay"), "outer.ay")
     <Examples: 5 windows of 100 samples: healthy 5>
     """

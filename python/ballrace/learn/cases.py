@@ -75,6 +75,7 @@ class Drawing:
             recipe.bearing,
             radial_load=recipe.radial[0],
             axial_load=recipe.axial[0],
+            speed_rpm=recipe.speed[1],
             clearance=None if recipe.clearance == "scatter" else recipe.clearance,
             texture=rough if recipe.surfaces == "as_made" else None,
         )
@@ -84,7 +85,7 @@ class Drawing:
         for kind in recipe.faults:
             for shape, defect in _shapes(SURFACES[kind], 1e3 * recipe.made.ball_diameter).items():
                 # A ball that turns about one axis alone brings its fault round far too regularly.
-                spin: Spin = "free" if kind == "ball" else "axial"
+                spin: Spin | None = "free" if kind == "ball" else healthy.spin
                 found[f"{SURFACES[kind]}.{shape}"] = replace(
                     healthy, defects={"fault": defect}, spin=spin
                 )

@@ -147,7 +147,7 @@ class Recipe:
         if self.clearance != "scatter":
             from ..bearings import bearing
 
-            bearing(self.bearing, clearance=self.clearance)
+            bearing(self.bearing, speed_rpm=1800.0, clearance=self.clearance)
 
     def _check_faults(self) -> None:
         if not isinstance(self.faults, Mapping) or not self.faults:

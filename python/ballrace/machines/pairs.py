@@ -66,7 +66,7 @@ def pair(
     Examples
     --------
     >>> import ballrace as br
-    >>> made = br.pair("7208 BECBP", preload=500.0, radial_load=0.0)
+    >>> made = br.pair("7208 BECBP", preload=500.0, radial_load=0.0, speed_rpm=1500.0)
     >>> [round(float(each.force[2]), -1) for each in br.machines.reactions(made)]
     [-500.0, 500.0]
     """

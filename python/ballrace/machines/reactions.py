@@ -57,7 +57,8 @@ def reactions(scene: Scene) -> tuple[Reaction, ...]:
     Examples
     --------
     >>> import ballrace as br
-    >>> made = br.shaft([("6205", 0.0), ("6205", 0.1)], loads={"pull": br.machines.force(y=-900.0, at=0.05)})
+    >>> pull = br.machines.force(y=-900.0, at=0.05)
+    >>> made = br.shaft([("6205", 0.0), ("6205", 0.1)], speed_rpm=1500.0, loads={"pull": pull})
     >>> [round(each.force[1]) for each in br.machines.reactions(made.replace({"gravity": [0.0, 0.0, 0.0]}))]
     [450, 450]
     """

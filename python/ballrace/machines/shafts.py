@@ -86,7 +86,7 @@ def shaft(
         overlap. For angular contact bearings of one row also the side: +1 takes thrust on the shaft towards +z,
         -1 towards -z.
     speed_rpm : float, optional
-        Speed of the shaft [rev/min]; by default 1500, and 0 where the outer rings turn.
+        Speed of the shaft [rev/min]; may be left out only where the outer rings turn, and is then 0.
     outer_rpm : float, optional
         Speed of all outer rings with their housing [rev/min], as in wheel hubs, idlers and sheaves on an axle; by
         default they stand. The housing's mount does not turn.
@@ -133,7 +133,6 @@ def shaft(
         outer_ring=_outer(places, housing),
         inner_ring=_inner(places, masses),
         speed_rpm=speed_rpm,
-        usual_rpm=1500.0,
         outer_rpm=outer_rpm,
         loads=loads,
         unbalances=_unbalances(unbalances),

@@ -5,7 +5,7 @@ figure, whose ``data`` hold the numbers. :func:`write` makes a page of one that 
 :data:`CONFIG` switches plotly's logo and cloud off elsewhere: ``fig.show(config=br.plot.CONFIG)``.
 
 >>> import ballrace as br
->>> scene = br.bearing("6205", defects=br.defects.spall(on="inner_race", width_mm=1.0))
+>>> scene = br.bearing("6205", defects=br.defects.spall(on="inner_race", width_mm=1.0), speed_rpm=1800.0)
 >>> fig = br.plot.envelope_spectrum(br.simulate(scene, duration=0.1))
 
 ===============================  ===========================================================================

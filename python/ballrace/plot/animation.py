@@ -29,7 +29,7 @@ def probes(scene: Scene) -> dict[str, Probe]:
     Examples
     --------
     >>> import ballrace as br
-    >>> scene = br.bearing("6205")
+    >>> scene = br.bearing("6205", speed_rpm=1800.0)
     >>> ready = scene.replace({"probes": br.plot.probes(scene)})
     """
     found: dict[str, Probe] = {ring: MotionProbe(body=ring) for ring in ("outer", "inner")}
@@ -83,7 +83,7 @@ def animation(
     Examples
     --------
     >>> import ballrace as br
-    >>> scene = br.bearing("6205")
+    >>> scene = br.bearing("6205", speed_rpm=1800.0)
     >>> out = br.simulate(scene.replace({"probes": br.plot.probes(scene)}), duration=0.01)
     >>> fig = br.plot.animation(out, frames=20)
     >>> len(fig.frames)

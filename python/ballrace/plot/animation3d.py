@@ -62,7 +62,7 @@ def animation3d(
     Examples
     --------
     >>> import ballrace as br
-    >>> scene = br.bearing("6205")
+    >>> scene = br.bearing("6205", speed_rpm=1800.0)
     >>> out = br.simulate(scene.replace({"probes": br.plot.probes(scene)}), duration=0.01)
     >>> fig = br.plot.animation3d(out, frames=20)
     >>> len(fig.frames)

@@ -154,7 +154,7 @@ def slice_forces(
     --------
     >>> import ballrace as br
     >>> probe = br.scene.SlicesProbe(balls=(0,), races=("outer",), times=(0.0,))
-    >>> scene = br.bearing("6205").replace({"probes.slices": probe})
+    >>> scene = br.bearing("6205", speed_rpm=1800.0).replace({"probes.slices": probe})
     >>> fig = br.plot.slice_forces(br.simulate(scene, duration=1e-4))
     """
     from .._plotly import Bar

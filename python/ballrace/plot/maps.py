@@ -74,7 +74,7 @@ def spectrogram(
     Examples
     --------
     >>> import ballrace as br
-    >>> fig = br.plot.spectrogram(br.simulate(br.bearing("6205"), duration=0.05))
+    >>> fig = br.plot.spectrogram(br.simulate(br.bearing("6205", speed_rpm=1800.0), duration=0.05))
     """
     from .._plotly import Figure
 
@@ -145,7 +145,7 @@ def order_map(
     --------
     >>> import ballrace as br
     >>> speed = br.scene.Ramp(from_=60.0, to=180.0, start=0.0, end=0.2)
-    >>> scene = br.bearing("6205").replace({"drive": br.scene.SpeedDrive(speed)})
+    >>> scene = br.bearing("6205", speed_rpm=1800.0).replace({"drive": br.scene.SpeedDrive(speed)})
     >>> fig = br.plot.order_map(br.simulate(scene, duration=0.2))
     """
     from .._plotly import Figure
@@ -283,7 +283,7 @@ def kurtogram(
     Examples
     --------
     >>> import ballrace as br
-    >>> out = br.simulate(br.bearing("6205"), duration=0.05)
+    >>> out = br.simulate(br.bearing("6205", speed_rpm=1800.0), duration=0.05)
     >>> found = br.spectra.kurtogram(out["outer.ay"], out.fs, narrowest=1000.0)
     >>> fig = br.plot.kurtogram(found)
     >>> len(fig.data[0].y) == len(set(found.level))

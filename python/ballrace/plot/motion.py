@@ -57,7 +57,7 @@ def orbit(
     Examples
     --------
     >>> import ballrace as br
-    >>> fig = br.plot.orbit(br.simulate(br.bearing("6205"), duration=0.02))
+    >>> fig = br.plot.orbit(br.simulate(br.bearing("6205", speed_rpm=1800.0), duration=0.02))
     """
     from .._plotly import Figure, Scatter
 
@@ -119,7 +119,7 @@ def ball_path(
     --------
     >>> import ballrace as br
     >>> ball = br.scene.MotionProbe(body="row0.ball0", components=("x", "y"))
-    >>> scene = br.bearing("6205", defects=br.defects.spall(on="outer_race", width_mm=1.0))
+    >>> scene = br.bearing("6205", defects=br.defects.spall(on="outer_race", width_mm=1.0), speed_rpm=1800.0)
     >>> out = br.simulate(scene.replace({"probes.ball": ball}), duration=0.1)
     >>> fig = br.plot.ball_path(out)
     """

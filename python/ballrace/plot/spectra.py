@@ -93,7 +93,7 @@ def envelope_spectrum(
     Examples
     --------
     >>> import ballrace as br
-    >>> scene = br.bearing("6205", defects=br.defects.spall(on="inner_race", width_mm=1.0))
+    >>> scene = br.bearing("6205", defects=br.defects.spall(on="inner_race", width_mm=1.0), speed_rpm=1800.0)
     >>> fig = br.plot.envelope_spectrum(br.simulate(scene, duration=0.1), harmonics=2)
     >>> [a.text for a in fig.layout.annotations][:3]
     ['BPFI − f<sub>r</sub>', 'BPFI', 'BPFI + f<sub>r</sub>']
@@ -175,7 +175,7 @@ def psd(
     Examples
     --------
     >>> import ballrace as br
-    >>> fig = br.plot.psd(br.simulate(br.bearing("6205"), duration=0.02), "outer.ay")
+    >>> fig = br.plot.psd(br.simulate(br.bearing("6205", speed_rpm=1800.0), duration=0.02), "outer.ay")
     """
     from .._plotly import Figure, Scatter
 

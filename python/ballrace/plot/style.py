@@ -173,7 +173,7 @@ def write(fig: go.Figure, path: str | os.PathLike[str]) -> None:
     >>> import ballrace as br, pathlib, tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     path = pathlib.Path(folder) / "section.html"
-    ...     br.plot.write(br.plot.section(br.bearing("6205")), path)
+    ...     br.plot.write(br.plot.section(br.presets.deep_groove_6205()), path)
     ...     path.stat().st_size > 1_000_000
     True
     """

@@ -52,7 +52,7 @@ def signals(
     Examples
     --------
     >>> import ballrace as br
-    >>> out = br.simulate(br.bearing("6205"), duration=0.002)
+    >>> out = br.simulate(br.bearing("6205", speed_rpm=1800.0), duration=0.002)
     >>> fig = br.plot.signals(out, ["outer.ax", "outer.ay"], title="A run")
 
     Raises
@@ -176,7 +176,7 @@ def impacts(
     Examples
     --------
     >>> import ballrace as br
-    >>> scene = br.bearing("6205", defects=br.defects.spall(on="outer_race", width_mm=1.0))
+    >>> scene = br.bearing("6205", defects=br.defects.spall(on="outer_race", width_mm=1.0), speed_rpm=1800.0)
     >>> fig = br.plot.impacts(br.simulate(scene, duration=0.03))
     >>> [trace.name for trace in fig.data]
     ['vertical acceleration, outer ring', 'BPFO, 107.7 Hz']

@@ -179,7 +179,7 @@ def rating_life(
     Examples
     --------
     >>> import ballrace as br
-    >>> life = br.rating_life(br.bearing("6205", radial_load=1400.0))
+    >>> life = br.rating_life(br.bearing("6205", radial_load=1400.0, speed_rpm=1800.0))
     >>> life.rating, round(life.basic / 1e6)  # (14000/1400)³
     (14000.0, 1000)
     >>> 0.5 < life.reference / life.basic < 1.5

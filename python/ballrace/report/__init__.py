@@ -1,7 +1,7 @@
 """Reports: one page of a run or of a campaign that needs no network, with figures, tables and warnings.
 
 >>> import ballrace as br, pathlib, tempfile
->>> out = br.simulate(br.bearing("6205"), duration=0.05)
+>>> out = br.simulate(br.bearing("6205", speed_rpm=1800.0), duration=0.05)
 >>> with tempfile.TemporaryDirectory() as folder:
 ...     path = pathlib.Path(folder) / "report.html"
 ...     out.report(path)

@@ -140,7 +140,7 @@ class Scene(Part):
     def __repr__(self) -> str:
         balls = " + ".join(str(row.ball_count) for row in self.rows)
         named = {kind: getattr(self, kind) for kind in _NAMED}
-        parts = [f"{balls} balls", *(f"{kind}: {', '.join(v)}" for kind, v in named.items() if v)]
+        parts = [f"{balls} balls", *(f"{kind}: {_listed(v)}" for kind, v in named.items() if v)]
         return f"<Scene {self.name!r}: {'; '.join(parts)}>"
 
     def _repr_html_(self) -> str:
@@ -311,6 +311,16 @@ class Scene(Part):
             text = json.dumps(encode(self, ""))
             object.__setattr__(self, "_text", text)
         return text
+
+
+def _listed(parts: Mapping[str, Any]) -> str:
+    """Return names, of loads with their forces where these do not change."""
+    steady = {
+        name: f" {part.force:g} N"
+        for name, part in parts.items()
+        if isinstance(part, Load) and isinstance(part.force, int | float)
+    }
+    return ", ".join(name + steady.get(name, "") for name in parts)
 
 
 def checked_path(path: object) -> str:

@@ -38,7 +38,7 @@ class Texture(Part):
     --------
     >>> import ballrace as br
     >>> made = br.scene.Texture(outer=1e-9, inner=1e-9, ball=3e-11, seed=4)
-    >>> scene = br.bearing("6205", radial_load=300.0, axial_load=80.0, texture=made)
+    >>> scene = br.bearing("6205", radial_load=300.0, axial_load=80.0, texture=made, speed_rpm=1800.0)
     """
 
     outer: float = 0.0
