@@ -365,9 +365,9 @@ LIMITS = """## Deviations, explained
   this model without thrust do not. This does not prove the thrust: cage play and rolling diameter also raise
   BPFO, and the fitted thrust gives a contact angle of 7.4° at rest, where the records' orders, explained by an
   angle alone, give 9.6°.
-- *Lives*: MASTA's are of one position of the cage, as the rows; where a ring tilts there, the tilt is linear. SKF's
-  ν₁ is lower than that of ISO 281 (8.15 instead of 9.65 mm²/s for the catalogue's example), and its P_u is C₀/23.5 where
-  the standard's short rule is C₀/22.
+- *Lives*: MASTA's are of one position of the cage, as the rows; where a ring tilts there, the tilt is linear.
+  SKF's ν₁ is lower than that of ISO 281 (8.15 instead of 9.65 mm²/s for the catalogue's example), and its P_u is
+  C₀/23.5 where the standard's short rule is C₀/22.
 - *Paper*: "zone" is the centre of force. 0.1° of the start phase moves the dynamic zone shift by 0.06 mm,
   0.01 mm of the defect's position the impacts by 1.3 points; pitch diameters from 54 to 70 mm are equally good
   at rest. With 50, 100 and 200 fixed slices the impacts grow by 56, 23 and 32 %: fixed slices change the

@@ -148,12 +148,12 @@ def test_light_loads_have_an_equilibrium_off_the_top_of_a_ball() -> None:
 
 
 def test_ordinary_scenes_are_not_doubted() -> None:
-    """Truth: the catalogue, at 5 to 15 % of C₀ and up to n d_m of 300 000 mm/min."""
+    """Truth: 500 scenes of the catalogue, at 6 to 15 % of C₀ and up to n d_m of 300 000 mm/min."""
     rng = np.random.default_rng(65)
     names = [name for name in br.catalogue if br.catalogue[name].kind != "thrust"]
-    for _ in range(60):
+    for _ in range(500):
         made = br.catalogue[str(rng.choice(names))]
-        load = float(rng.uniform(0.05, 0.15)) * made.static_rating
+        load = float(rng.uniform(0.06, 0.15)) * made.static_rating
         speed = float(rng.uniform(0.02, 1.0)) * 3e5 / (1e3 * made.pitch_diameter)
         scene = br.bearing(made, radial_load=load, speed_rpm=speed)
         assert br.equilibrium(scene).warnings == (), (made.designation, load, speed)
