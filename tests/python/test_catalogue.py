@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 import pickle
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Literal, get_args
 
@@ -399,11 +400,12 @@ def test_load_decides_whether_damage_is_detected() -> None:
 
 def test_a_speed_is_asked_for_and_the_load_told() -> None:
     """A bearing without a speed ran at 1800 rev/min without a word, and under a tenth of its static rating."""
-    for make in (
+    makes: tuple[Callable[[], object], ...] = (
         lambda: br.bearing("6205"),
         lambda: br.pair("7205B"),
         lambda: br.shaft([("6309", 0.0), ("6207", 0.25)]),
-    ):
+    )
+    for make in makes:
         with pytest.raises(br.SceneError, match=r"^speed_rpm = None: the speed of the inner ring"):
             make()
     assert "loads: axial 0 N, radial 785 N" in repr(br.bearing("6205", speed_rpm=1800.0))
