@@ -89,7 +89,7 @@ fn healthy(scene: &Scene) -> Scene {
 
 /// The difference, and the scene at rest.
 fn compared(scene: &Scene) -> Result<(Option<AxisHeld>, OneSpin)> {
-    let own = OneSpin::of(scene.clone())?;
+    let own = OneSpin::of(scene)?;
     if !own.is_driven() {
         return Ok((None, own));
     }
@@ -97,7 +97,7 @@ fn compared(scene: &Scene) -> Result<(Option<AxisHeld>, OneSpin)> {
         return Ok((Some(AxisHeld::default()), own));
     }
     let is_free = scene.spin == Some(Spin::Free);
-    let other = OneSpin::of(Scene {
+    let other = OneSpin::of(&Scene {
         spin: Some(if is_free { Spin::Axial } else { Spin::Free }),
         ..scene.clone()
     })?;
@@ -118,8 +118,8 @@ struct OneSpin {
 }
 
 impl OneSpin {
-    fn of(scene: Scene) -> Result<Self> {
-        let model = compile(&scene)?;
+    fn of(scene: &Scene) -> Result<Self> {
+        let model = compile(scene)?;
         let mut y = in_motion(&model, RaceControl::Friction, Spacing::Equal)?;
         keep(&model, &mut y);
         let [turned, _] = model.scene.ring_speeds(0.0);
