@@ -19,9 +19,8 @@ use crate::scene::{AtSpeed, Doubt, Scene, Spin};
 
 /// Largest share that counts as the same answer.
 const SAME: f64 = 2e-3;
-/// Shares of orbit speed and of load from which a held axis is doubted: those of a warning about a run's orbit, and of what
-/// programs of bearings differ by.
-const DOUBTED: [f64; 2] = [5e-3, 1e-2];
+/// The same, above which a held axis is doubted: below, presets and documents that hold it differ by the friction of slow balls alone.
+const DOUBTED: f64 = 1e-2;
 /// Share of the largest load, of a row or of all rows, from which a ball or a row counts as loaded.
 const LOADED: f64 = 0.1;
 /// Contact angle below which both spins are one \[rad\].
@@ -74,8 +73,7 @@ pub(crate) fn at_speed(scene: &Scene) -> Result<(Option<AxisHeld>, Vec<Doubt>)> 
 /// The doubt about a held axis, where it matters.
 pub(crate) fn axis_doubt(scene: &Scene, held: Option<AxisHeld>) -> Option<Doubt> {
     let held = held.filter(|_| scene.spin != Some(Spin::Free))?;
-    let [orbit, load] = DOUBTED;
-    let matters = held.orbit.abs() > orbit || held.load > load;
+    let matters = held.orbit.abs().max(held.load) > DOUBTED;
     matters.then(|| Doubt::axis(held.orbit, held.load))
 }
 
