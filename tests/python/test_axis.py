@@ -84,9 +84,9 @@ def test_a_defect_that_lies_along_a_ball_holds_the_axis() -> None:
 
 
 def test_a_run_says_how_balls_spin_and_what_the_other_spin_would_change() -> None:
-    scene = br.bearing("7208B", radial_load=0.0, axial_load=3000.0, speed_rpm=5000.0)
+    scene = br.bearing("7208B", radial_load=0.0, axial_load=3000.0, speed_rpm=7000.0)
     out = br.simulate(scene, duration=0.02, fs=20_000.0)
-    assert out.provenance.axis.orbit > 0.004
+    assert out.provenance.axis.orbit > 0.01
     assert not any("spin" in text or "predicted" in text for text in out.warnings)
     forecast = br.fault_frequencies(scene)
     assert br.fault_frequencies(out).bpfo == pytest.approx(forecast.bpfo, rel=0.01)

@@ -386,3 +386,13 @@ def test_without_marimo_it_says_what_to_install(monkeypatch: pytest.MonkeyPatch)
     monkeypatch.setitem(sys.modules, "marimo", None)
     with pytest.raises(ImportError, match=r"ballrace\[app\]"), served():
         pass
+
+
+def test_a_faster_bearing_spins_freely() -> None:
+    """Truth: `br.bearing` at that speed. The page began at 1800 rev/min, where the axis may be held."""
+    slow = br.bearing("7208B", radial_load=0.0, axial_load=1000.0, speed_rpm=1800.0)
+    fast = Settings.of(slow).moved(speed_rpm=10_000.0).scene()
+    assert fast.spin == "free"
+    assert Settings.of(fast).moved(speed_rpm=100.0).scene().spin is None
+    held = Settings.of(slow.replace({"spin": "axial"})).moved(speed_rpm=10_000.0).scene()
+    assert held.spin == "axial"

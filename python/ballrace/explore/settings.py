@@ -7,6 +7,7 @@ from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, Any, Literal, get_args
 
 from .. import defects
+from ..bearings.filled import with_spin
 from ..errors import SceneError
 from ..scene import Component, Load, Moment, MotionProbe, Scene, SpeedDrive, Spring, Surface
 from ..scene.defect import SURFACES
@@ -121,7 +122,10 @@ class Settings:
         changes: dict[str, Any] = {}
         for change in (_loads, _drive, _clearances, _oil, _damage, _housing):
             changes |= change(self, moved)
-        return _recorded(self.base.replace(changes))
+        if not changes or self.base.spin == "axial":
+            return _recorded(self.base.replace(changes))
+        # Other loads and speeds may want balls that spin about any axis, or no longer.
+        return _recorded(with_spin(replace(self.base, spin=None).replace(changes)))
 
 
 def _loads(of: Settings, moved: set[str]) -> dict[str, Any]:
