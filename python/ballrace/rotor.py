@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 __all__ = ["StiffnessTable", "stiffness_table"]
 
 RossAxis = Literal["speed", "frequency"]
-"""What a ``BearingElement`` of ROSS calls the speed of the rotor: from 3 on, and before."""
+"""Name that a ``BearingElement`` of ROSS has for the speed of the rotor: from 3 on, and before."""
 
 _AXES = ("x", "y", "z", "a", "b")
 """Names of directions in columns: a and b are the tilts about x and y."""

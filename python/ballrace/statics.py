@@ -158,7 +158,7 @@ class Equilibrium:
 
     @property
     def loaded(self) -> NDArray[np.bool_]:
-        """Which balls count as loaded, shape (n_balls,): above a tenth of the largest load on the inner race.
+        """Balls that count as loaded, shape (n_balls,): above a tenth of the largest load on the inner race.
 
         At speed every ball is thrown against the outer race, which does not count.
         """

@@ -208,9 +208,9 @@ pub struct Provenance {
     pub films: Vec<RaceFilm>,
     /// Largest step by which the method is stable and accurate in this scene \[s\]; `frequency_cap` keeps below it.
     pub step_limit: f64,
-    /// What holding the balls' axis along the bearing's changes at rest; absent where nothing turns or rubs, or without an equilibrium.
+    /// Changes at rest by holding the balls' axis along the bearing's; absent where nothing turns or rubs, or without an equilibrium.
     pub axis: Option<AxisHeld>,
-    /// What is doubtful at rest about the balls at their speed.
+    /// Doubts at rest about the balls at their speed.
     pub at_rest: Vec<Doubt>,
 }
 

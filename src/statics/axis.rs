@@ -1,4 +1,4 @@
-//! What it changes at rest to hold the balls' axis along the bearing's, against balls that spin about any axis; and what else their speed
+//! Changes at rest by holding the balls' axis along the bearing's, against balls that spin about any axis; and what else their speed
 //! does to them.
 //!
 //! Where both contact angles of a ball are the same and its gyroscopic moment is small, both spins give the same orbit and loads, and
@@ -158,7 +158,7 @@ impl OneSpin {
         balls.flat_map(|ball| [ball.outer.load, ball.inner.load])
     }
 
-    /// With the axis held, against the same with it free.
+    /// Changes with the axis held, against the same with it free.
     fn against(&self, free: &Self) -> AxisHeld {
         let orbits = self.orbits.iter().zip(&free.orbits);
         let faster = orbits.filter_map(|(held, free)| Some((*held)? / (*free)? - 1.0));
@@ -185,7 +185,7 @@ fn largest(found: &Equilibrium, row: &RowModel) -> f64 {
     loads.fold(0.0, f64::max)
 }
 
-/// What is doubtful about balls at their speed.
+/// Doubts about balls at their speed.
 pub(super) fn doubts(model: &Model, found: &Equilibrium) -> Vec<Doubt> {
     let rows = 0..model.rows.len();
     let judged = rows.filter_map(|row| judged(model, found, row));

@@ -19,7 +19,7 @@ __all__ = ["LEAST", "AnyBearing", "Kinematics", "kinematics_of"]
 AnyBearing: TypeAlias = (
     "str | Bearing | Scene | Row | Orders | FaultFrequencies | Mapping[str, float]"
 )
-"""What names a bearing: a designation, a bearing of the catalogue, a scene or a row of one, or its orders."""
+"""Name of a bearing: a designation, a bearing of the catalogue, a scene or a row of one, or its orders."""
 
 _NEEDED = ("ftf", "bpfo", "bpfi", "bsf")
 

@@ -1,4 +1,4 @@
-"""What a record would need to have for a statement, or for a better one."""
+"""Advice on what a record would need to have for a statement, or for a better one."""
 
 from __future__ import annotations
 

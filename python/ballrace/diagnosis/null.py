@@ -1,4 +1,4 @@
-"""What combs are by chance: the same comb at orders of the same record that no part of the bearing has.
+"""Null distribution: combs by chance, the same comb at orders of the same record that no part of the bearing has.
 
 Nothing is trained and no threshold in decibels is set: a tone of the machine, a sloping spectrum or a short record
 raise the null as they raise the fault's comb. The largest of many combs is distributed as extreme values are

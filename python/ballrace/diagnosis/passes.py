@@ -27,7 +27,7 @@ __all__ = ["AveragedPass", "Passes", "averaged", "passes_of"]
 _BANDS = (
     (1e3, 3e3), (2e3, 5e3), (4e3, 8e3), (6e3, 12e3), (10e3, 20e3), (1.5e3, 6e3), (3e3, 12e3), (5e3, 20e3),
 )  # fmt: skip
-"""Where impacts ring [Hz]."""
+"""Band in which impacts ring [Hz]."""
 
 _FINEST = 0.05
 """Most that balls may go on within the time that a band resolves, the inverse of its width [ball diameters]."""

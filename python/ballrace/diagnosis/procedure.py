@@ -1,4 +1,4 @@
-"""From a record to a verdict."""
+"""Course of a diagnosis from a record to a verdict."""
 
 from __future__ import annotations
 

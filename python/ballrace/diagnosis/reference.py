@@ -23,7 +23,7 @@ __all__ = ["against"]
 def against(
     of: Diagnosis, reference: Given, fs: float | None, column: str | None, unit: str | None
 ) -> Diagnosis:
-    """Return a diagnosis with its change; see :meth:`ballrace.Diagnosis.against`."""
+    """Return a diagnosis with its change; see :meth:`ballrace.diagnosis.Diagnosis.against`."""
     if of.severity is None:
         raise SceneError("reference", "a record", f"none: the record itself needs {of.why}")
     channel = checked_channel(

@@ -30,7 +30,7 @@ __all__ = ["Diagnosis"]
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Diagnosis:
-    """What :func:`ballrace.diagnose` says of a record.
+    """Result of :func:`ballrace.diagnose` on a record.
 
     Attributes
     ----------

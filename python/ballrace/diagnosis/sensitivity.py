@@ -1,4 +1,4 @@
-"""What damage would have stood out in a record, so that "healthy" says how far it was looked.
+"""Sensitivity: damage that would have stood out in a record, so that "healthy" says how far it was looked.
 
 Impacts at the rate of the outer race that make up a share of the vibration have envelope lines whose height over
 the floor of this record follows from that share. The share at which they reach the height that chance seldom has

@@ -20,7 +20,7 @@ WITHIN = 0.01
 """How far the rate may be from a nominal one, as a part of it, where nobody says so."""
 
 FURTHEST = 0.08
-"""How far it may be at most: loaded motors turn up to so much slower than their nominal speed."""
+"""Largest share by which the rate may be off: loaded motors turn up to so much slower than their nominal speed."""
 
 _HARMONICS = np.arange(1, 11)
 _BUT = 2

@@ -1,4 +1,4 @@
-"""Where the band of a record ends, by its spectrum: above, impacts leave nothing, whatever the sampling rate."""
+"""End of a record's band, by its spectrum: above, impacts leave nothing, whatever the sampling rate."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From evidence to a verdict: what is damaged, that nothing is, or what would decide.
+"""Verdict from evidence: what is damaged, that nothing is, or what would decide.
 
 Lines that chance does not explain are damage where they are deep, come from impacts and are not tiny; otherwise
 they are left open, never called healthy: early damage, a distant sensor or a wrong unit has such lines, too.
@@ -31,7 +31,7 @@ NAMES: dict[Part, str] = {
 }  # fmt: skip
 
 DOUBT = 3.0
-"""Up to so many times the false-alarm rate a part is doubted, not cleared.
+"""Factor on the false-alarm rate up to which a part is doubted, not cleared.
 
 There the likelihood ratio decides, where the unit is known and no part has lines that stand out.
 """
@@ -65,7 +65,7 @@ balls do to the cage and the races does not fade with the speed."""
 
 @dataclass(frozen=True, kw_only=True)
 class Size:
-    """What strength is judged by: pitch diameter [m] and rate of the shaft [Hz]."""
+    """Size by which strength is judged: pitch diameter [m] and rate of the shaft [Hz]."""
 
     diameter: float
     rate: float

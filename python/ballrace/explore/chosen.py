@@ -19,7 +19,7 @@ __all__ = ["described", "named", "read_file", "summary"]
 
 Housing = Literal["pedestal", "bare ring"]
 _SPEED = 1800.0
-"""Where the slider of the speed begins [rev/min]."""
+"""Speed at which the slider begins [1/min]."""
 
 
 def named(name: str, housing: Housing = "pedestal") -> Scene:

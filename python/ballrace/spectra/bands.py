@@ -1,4 +1,4 @@
-"""Where a defect's lines are to be expected in a spectrum, and what stands there.
+"""Bands of a spectrum in which a defect's lines are to be expected, and what stands there.
 
 A defect of the outer race gives lines at the multiples of BPFO. One of the inner race turns with the shaft in and
 out of the load, so its lines at the multiples of BPFI have others a shaft's rate beside them. One of a ball meets
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 __all__ = ["Fault", "FaultBand", "FaultMetrics", "fault_band_metrics", "fault_bands"]
 
 Fault = Literal["outer_race", "inner_race", "ball", "cage"]
-"""What is damaged."""
+"""Part that is damaged."""
 
 _BESIDE = 10
 """Bands of the same width to either side, by which a band is judged."""
@@ -81,7 +81,7 @@ class FaultBand:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class FaultMetrics:
-    """What a spectrum has in the bands of one fault; each array has an entry a band.
+    """Metrics of a spectrum in the bands of one fault; each array has an entry a band.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What the functions of signals refuse."""
+"""Checks of the arguments of functions of signals."""
 
 from __future__ import annotations
 

@@ -34,7 +34,7 @@ _CHANGE = math.log(1.5)
 _SLOWER, _FASTER = math.exp(-_CHANGE), math.exp(_CHANGE)
 
 _ROUGH = 0.1
-"""Such a change that costs as much as one pulse that is dropped or missing."""
+"""Change of the angle that costs as much as one pulse that is dropped or missing."""
 
 _DROPPED, _LONGEST = 5, 20
 """Most pulses in a row that are dropped; most intervals without a pulse."""

@@ -1,4 +1,4 @@
-//! What speed does to balls in their races: their axis, too little load, gyroscopic moments, contact angles that part.
+//! Doubts about balls at speed: their axis, too little load, gyroscopic moments, contact angles that part.
 
 use super::Doubt;
 use crate::base::quantities::number;
@@ -11,7 +11,7 @@ const GYROSCOPIC: f64 = 0.9;
 /// Contact angle of the inner over that of the outer race \[rad\].
 const APART: f64 = 15.0 * std::f64::consts::PI / 180.0;
 
-/// By what the balls of a row are judged at speed.
+/// Numbers by which the balls of a row are judged at speed.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct AtSpeed {
     /// Row, from 0.
@@ -29,7 +29,7 @@ pub(crate) struct AtSpeed {
 }
 
 impl Doubt {
-    /// Of the balls of a row at speed.
+    /// Doubts about the balls of a row at speed.
     pub(crate) fn at_speed(of: &AtSpeed) -> Vec<Self> {
         let mut found = Vec::new();
         let mut add = |what: &str, value: String, usual: String| {
@@ -71,7 +71,7 @@ impl Doubt {
         found
     }
 
-    /// Of balls whose axis is held where that changes their orbit and loads by these shares.
+    /// Doubt about balls whose axis is held where that changes their orbit and loads by these shares.
     pub(crate) fn axis(orbit: f64, load: f64) -> Self {
         let usual = format!(
             "holds the balls' axis along the bearing's: at rest they go round {} % {} and contacts carry up to {} % of the largest load \
