@@ -120,6 +120,7 @@ def test_packages_list_their_public_names() -> None:
         "bearings",
         "campaigns",
         "datasets",
+        "diagnosis",
         "frequencies",
         "learn",
         "machines",
@@ -129,6 +130,7 @@ def test_packages_list_their_public_names() -> None:
         "recordings",
         "report",
         "scene",
+        "spectra",
         "trending",
     ]
     for name in public:

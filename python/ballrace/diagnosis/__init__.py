@@ -10,6 +10,7 @@
 
 from __future__ import annotations
 
+from .._later import listed
 from .evidence import Evidence, Line
 from .procedure import diagnose
 from .result import Diagnosis
@@ -33,3 +34,5 @@ __all__ = [
     "diagnose",
     "width_over_speeds",
 ]
+
+__dir__ = listed(__name__)

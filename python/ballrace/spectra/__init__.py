@@ -20,6 +20,7 @@ True
 
 from __future__ import annotations
 
+from .._later import listed
 from .angular import by_order, order_spectrum, turning
 from .bands import FaultBand, FaultMetrics, fault_band_metrics, fault_bands
 from .cyclic import cyclic_coherence, improved_envelope_spectrum
@@ -67,3 +68,5 @@ __all__ = [
     "squared_envelope_spectrum",
     "turning",
 ]
+
+__dir__ = listed(__name__)
