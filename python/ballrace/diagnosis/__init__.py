@@ -4,8 +4,6 @@
 >>> noise = np.random.default_rng(1).normal(size=48_000)
 >>> br.diagnose(noise, "6205", 1800.0, fs=12_000.0, speed_within=0.001).verdict
 'healthy'
-
-===============  ==========================================================================================
 """
 
 from __future__ import annotations
