@@ -94,7 +94,7 @@ def draw_torque(table: pl.DataFrame, figure: Figure) -> None:
     """Draw torque over speed and over temperature."""
     for axes, kind, column, label in zip(
         figure.subplots(1, 2, sharey=True), ("speed", "temperature"), ("rpm", "celsius"),
-        ("speed, rev/min", "temperature of the oil, °C"), strict=True,
+        ("speed, 1/min", "temperature of the oil, °C"), strict=True,
     ):  # fmt: skip
         part = table.filter(pl.col("over") == kind)
         for layer, mark in zip(LAYERS, ("o-", "s--"), strict=True):
@@ -160,7 +160,7 @@ def draw_film(table: pl.DataFrame, figure: Figure) -> None:
     roughness = 1e6 * oil_of(bearing()).roughness
     for axes, kind, column, label in zip(
         figure.subplots(1, 2, sharey=True), ("speed", "load"), ("rpm", "load"),
-        ("speed, rev/min", "radial load, N"), strict=True,
+        ("speed, 1/min", "radial load, N"), strict=True,
     ):  # fmt: skip
         for race, colour in zip(
             RACES, (COLOURS["oil"], COLOURS["oil, no film damping"]), strict=True
@@ -181,7 +181,7 @@ def draw_film(table: pl.DataFrame, figure: Figure) -> None:
 
 
 def skid() -> pl.DataFrame:
-    """Return the cage's speed over the kinematic one, under 20 N at 12 000 rev/min."""
+    """Return the cage's speed over the kinematic one, under 20 N at 12 000 1/min."""
     rows = []
     for celsius, layer in itertools.product((30.0, 42.5, 55.0, 72.5, 90.0), LAYERS):
         scene = bearing(celsius, 20.0, 12_000.0, layer)

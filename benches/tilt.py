@@ -106,7 +106,7 @@ def draw_orbit(table: pl.DataFrame, figure: Figure) -> None:
         for name, (mark, colour, words) in looks.items():
             own = table.filter(pl.col("ball") == name)
             axes.plot(own["rpm"], own[column], mark, color=colour, label=words)
-        axes.set(xlabel="speed, rev/min", ylabel=label)
+        axes.set(xlabel="speed, 1/min", ylabel=label)
     figure.axes[0].legend(frameon=False)
 
 

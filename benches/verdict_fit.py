@@ -8,7 +8,7 @@ reads ``benches/verdict_library.csv``, which ``benches/verdict_library.py`` make
 =====================  ==========================================================================================
 ``bearing``            designation
 ``part``               what is damaged, or ``none``
-``speed_rpm``, ``fs``  speed [rev/min], sampling rate [Hz]
+``speed_rpm``, ``fs``  speed [1/min], sampling rate [Hz]
 ``load``               radial load over the static rating
 ``width``, ``edge``    width of the spall and radius of its edges [ball diameters]
 ``snr_db``             vibration over noise [dB]

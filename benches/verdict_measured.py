@@ -82,7 +82,7 @@ class Record:
     bearing : str or Orders
         What :func:`ballrace.diagnose` takes for its bearing.
     nominal : float
-        Speed as its name or page has it [rev/min].
+        Speed as its name or page has it [1/min].
     unit : str or None
         Unit of its samples; None where the source gives none.
     """

@@ -374,7 +374,7 @@ def films(ax: Axes) -> None:
         film = [1e6 * br.equilibrium(scene).films[0].film for scene in scenes]
         ax.plot(degrees, film, color=colour)
         ax.text(degrees[0], film[0], f"{name} ", color=colour, ha="right", va="center")
-    labelled(ax, "film of a 6205 at 1800 rev/min", "temperature [°C]", "central film [µm]")
+    labelled(ax, "film of a 6205 at 1800 1/min", "temperature [°C]", "central film [µm]")
     ax.set_xlim(25.0, None)
 
 
@@ -400,7 +400,7 @@ def cages(ax: Axes) -> None:
     ax.text(ten, 0.05, "ten centrifugal forces a ball ", color=EDGE, ha="right")
     ax.set_xscale("log")
     ax.legend(frameon=False)
-    labelled(ax, "7208B at 10 000 rev/min", "thrust [N]", "turns of the cage a turn")
+    labelled(ax, "7208B at 10 000 1/min", "thrust [N]", "turns of the cage a turn")
 
 
 def reliability(ax: Axes) -> None:

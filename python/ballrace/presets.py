@@ -94,7 +94,7 @@ def angular_contact_pair(
     axial_load : float
         Load on the shaft along +z [N].
     speed_rpm : float
-        Speed of the shaft [rev/min].
+        Speed of the shaft [1/min].
     arrangement : str
         ``"back_to_back"``, stiff against tilting, or ``"face_to_face"``, compliant with a tilted shaft.
 
@@ -111,7 +111,7 @@ def angular_contact_pair(
             arrangement == "face_to_face",
             finite("radial_load", radial_load, "N"),
             finite("axial_load", axial_load, "N"),
-            finite("speed_rpm", speed_rpm, "rev/min"),
+            finite("speed_rpm", speed_rpm, "1/min"),
         )
     )
 
@@ -131,7 +131,7 @@ def deep_groove_6205(
     radial_load, axial_load : float
         Loads on the inner ring along -y and +z [N].
     speed_rpm : float
-        Speed of the inner ring [rev/min].
+        Speed of the inner ring [1/min].
     lubricant : str or Lubricant, optional
         Oil by its name (:func:`ballrace.lubricants`) or its numbers; by default the contacts are dry.
     temperature_c : float, optional
@@ -144,7 +144,7 @@ def deep_groove_6205(
     """
     oil = chosen(lubricant, temperature_c)
     radial, axial = finite("radial_load", radial_load, "N"), finite("axial_load", axial_load, "N")
-    speed = finite("speed_rpm", speed_rpm, "rev/min")
+    speed = finite("speed_rpm", speed_rpm, "1/min")
     return _lubricated(_core.preset_deep_groove_6205(radial, axial, speed), oil)
 
 
@@ -152,7 +152,7 @@ def motor(belt_pull: float = 900.0, speed_rpm: float = 1480.0) -> Scene:
     """Return an electric motor of some 11 kW with a belt: a rotor on a 6309 and a 6207, both C3.
 
     The rotor's disc of 25 kg is midway between the bearings, 0.25 m apart, and is unbalanced by 160 g mm, which is
-    G 1 of ISO 21940-11 at 1480 rev/min; the belt pulls down 80 mm outside of the 6309. Sizes are chosen, not those
+    G 1 of ISO 21940-11 at 1480 1/min; the belt pulls down 80 mm outside of the 6309. Sizes are chosen, not those
     of one motor.
 
     Parameters
@@ -160,7 +160,7 @@ def motor(belt_pull: float = 900.0, speed_rpm: float = 1480.0) -> Scene:
     belt_pull : float
         Force of both strands on the pulley [N], above 0.
     speed_rpm : float
-        Speed of the rotor [rev/min].
+        Speed of the rotor [1/min].
 
     Raises
     ------
@@ -171,7 +171,7 @@ def motor(belt_pull: float = 900.0, speed_rpm: float = 1480.0) -> Scene:
 
     return shaft(
         [("6309/C3", 0.0), ("6207/C3", 0.25)],
-        speed_rpm=finite("speed_rpm", speed_rpm, "rev/min"),
+        speed_rpm=finite("speed_rpm", speed_rpm, "1/min"),
         masses=[(25.0, 0.125, 0.15)],
         unbalances=[(160e-6, 0.125)],
         loads={"belt": belt(belt_pull, at=-0.08)},

@@ -40,7 +40,7 @@ _ROSS = {"xx": (0, 0), "xy": (0, 1), "yx": (1, 0), "yy": (1, 1), "zz": (2, 2)}
 """Coefficients that a ``BearingElement`` of ROSS takes."""
 _MEANT = {
     **dict.fromkeys(
-        ("speeds", "speed", "rpm", "frequency"), "speeds_rpm, speeds of the inner ring [rev/min]"
+        ("speeds", "speed", "rpm", "frequency"), "speeds_rpm, speeds of the inner ring [1/min]"
     ),
     **dict.fromkeys(
         ("radial_load", "axial_load", "load"),
@@ -216,7 +216,7 @@ def stiffness_table(
         Forces of the scene's loads [N], by their names: arrays of one length, or numbers for all cases. By default
         those of the scene, as one case.
     speeds_rpm : array_like, optional
-        Speeds of the inner ring [rev/min]; by default that of the scene.
+        Speeds of the inner ring [1/min]; by default that of the scene.
     positions : int
         Positions of the cage per ball pitch that are averaged.
 
@@ -288,7 +288,7 @@ def _coefficients(
 def _note(cases: Mapping[str, NDArray[np.float64]], case: int, rpm: float | None) -> str:
     """Say in words which load and speed it is."""
     loads = ", ".join(f"{name} = {of[case]:g} N" for name, of in cases.items())
-    speed = "" if rpm is None else f", at {rpm:g} rev/min"
+    speed = "" if rpm is None else f", at {rpm:g} 1/min"
     return f"in load case {case}: {loads}{speed}"
 
 
@@ -337,7 +337,7 @@ def _own_speed(scene: Scene) -> float:
         if math.isfinite(speed := real(drive.speed)):
             return speed
         raise SceneError(
-            "speeds_rpm", "absent", "speeds [rev/min], since the scene's own speed changes in time"
+            "speeds_rpm", "absent", "speeds [1/min], since the scene's own speed changes in time"
         )
     return drive.initial_speed
 

@@ -75,7 +75,7 @@ impl fmt::Display for OilExplanation {
         for film in &self.films {
             write!(
                 f,
-                "\n    {} race: film {:.3} µm, at least {:.3}, λ {:.2}; friction {:.3} from slip of {} mm/s; for {:.0} N ({}) at {:.0} rev/min ({})",
+                "\n    {} race: film {:.3} µm, at least {:.3}, λ {:.2}; friction {:.3} from slip of {} mm/s; for {:.0} N ({}) at {:.0} 1/min ({})",
                 Race::from(film.race).name(),
                 1e6 * film.film,
                 1e6 * film.minimum_film,

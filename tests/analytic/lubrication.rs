@@ -306,7 +306,7 @@ fn explain_gives_the_oil() {
     for part in [
         "vg68 at 55 °C, 34.82 mm²/s",
         "outer race: film 0.2",
-        "(equilibrium) at 1797 rev/min (drive)",
+        "(equilibrium) at 1797 1/min (drive)",
     ] {
         assert!(text.contains(part), "{part}: {text}");
     }

@@ -399,7 +399,7 @@ def test_load_decides_whether_damage_is_detected() -> None:
 
 
 def test_a_speed_is_asked_for_and_the_load_told() -> None:
-    """A bearing without a speed ran at 1800 rev/min without a word, and under a tenth of its static rating."""
+    """A bearing without a speed ran at 1800 1/min without a word, and under a tenth of its static rating."""
     makes: tuple[Callable[[], object], ...] = (
         lambda: br.bearing("6205"),
         lambda: br.pair("7205B"),
@@ -509,7 +509,7 @@ SPALL = br.defects.spall(on="inner_race", width_mm=1.0)
         ({"defects": [SPALL, SPALL]}, "defects", r"several by their names, \{\"first\""),
         ({"defects": "inner_race"}, "defects", r"br\.defects\.spall\(on=\"inner_race\""),
         ({"defects": {"a": "inner_race"}}, "defects.a", r"br\.defects\.spall"),
-        ({"speed": 1797.0}, "speed", r"speed_rpm, .* \[rev/min\]"),
+        ({"speed": 1797.0}, "speed", r"speed_rpm, .* \[1/min\]"),
         ({"d": 25e-3}, "d", r"br\.bearing\(\"6205\"\)"),
         ({"load": 1e3}, "load", "radial_load"),
         ({"radial_laod": 1e3}, "radial_laod", "write radial_load"),

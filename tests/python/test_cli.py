@@ -392,7 +392,7 @@ def test_report_of_a_file_and_a_folder(
 
 @pytest.fixture
 def blows(tmp_path: Path) -> Path:
-    """A measured record: blows at the inner race's rate of a 6205 at 1797 rev/min."""
+    """A measured record: blows at the inner race's rate of a 6205 at 1797 1/min."""
     rate, fs = br.fault_frequencies("6205", 1797.0).bpfi, 12_000.0
     since = (np.arange(24_000) / fs) % (1.0 / rate)
     x = np.exp(-800.0 * since) * np.sin(2 * np.pi * 3000.0 * since)

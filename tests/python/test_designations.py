@@ -106,7 +106,7 @@ def test_what_may_be_another_bearing_is_doubted_and_taken(name: str, message: st
         ("QJ210", r"a four-point bearing: write a scene with br\.scene\.GothicArch"),
         ("UC205", "an insert bearing"),
         ("C2205", "a toroidal roller bearing"), ("4205", "a double row deep groove bearing"),
-        # Literature: the IMS data's BPFO of 236.4 Hz at 2000 rev/min; the four of an NU330.
+        # Literature: the IMS data's BPFO of 236.4 Hz at 2000 1/min; the four of an NU330.
         ("Rexnord ZA-2115", r"its fault frequencies are FTF 0\.4433, BPFO 7\.092, BPFI 8\.908"),
         ("NU 330", r"its fault frequencies are FTF 0\.4, BPFO 5\.6, BPFI 8\.4, BSF 2\.55 times the shaft's"),
     ],

@@ -19,7 +19,7 @@ pytestmark = pytest.mark.filterwarnings(
 
 
 def test_of_a_name_they_are_the_published_ones() -> None:
-    # Case Western Reserve University, 6205 at 1797 rev/min.
+    # Case Western Reserve University, 6205 at 1797 1/min.
     found = br.fault_frequencies("SKF 6205-2RS", 1797.0)
     assert (found.shaft, found.contact_angle, found.slip) == (29.95, 0.0, None)
     assert [found.bpfo, found.bpfi, 2.0 * found.bsf, found.ftf] == pytest.approx(

@@ -45,7 +45,7 @@ def test_a_run(out: br.Signals, tmp_path: Path) -> None:
         f"{1e-6 * life.reference:.4g} million turns", f"{1e-6 * life.basic:.4g} million turns",
         words.number(found["outer.ay.rms"]), words.number(found["outer.ay.kurtosis"]),
         str(out.provenance.method), f"{out.stats.nfev}", "mirror symmetry", "1500 N on the inner ring",
-        "1797 rev/min", "spall: on the inner race of row 0",
+        "1797 1/min", "spall: on the inner race of row 0",
         f"{out.defects['spall'].touched} of {out.defects['spall'].passes}",
     ):  # fmt: skip
         assert wanted in text, wanted

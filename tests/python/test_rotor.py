@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
     from ballrace.rotor import RossAxis
 
-# 100 N on a 6205 at 4500 rev/min are eight centrifugal forces a ball.
+# 100 N on a 6205 at 4500 1/min are eight centrifugal forces a ball.
 pytestmark = pytest.mark.filterwarnings("ignore:row 0, thrust a ball")
 
 
@@ -99,7 +99,7 @@ def test_bad_arguments_are_refused_by_name(scene: br.Scene) -> None:
     )
     with pytest.raises(br.SceneError, match="reference_speed") as refused:
         br.stiffness_table(oil, speeds_rpm=[1000.0, 0.0])
-    assert refused.value.__notes__[0].endswith("at 0 rev/min")
+    assert refused.value.__notes__[0].endswith("at 0 1/min")
 
 
 def _shaken(scene: br.Scene, duration: float) -> tuple[NDArray[Any], NDArray[Any]]:

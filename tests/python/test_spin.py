@@ -144,7 +144,7 @@ def jones(found: Late, race: str) -> tuple[float, float]:
 
 @pytest.fixture(scope="module")
 def fast() -> Late:
-    """A 218 at 10 000 rev/min under 17.8 kN, where centrifugal forces part the contact angles by 17°."""
+    """A 218 at 10 000 1/min under 17.8 kN, where centrifugal forces part the contact angles by 17°."""
     return late(ball_of_218(17_800.0, 10_000.0 * RPM))
 
 

@@ -230,7 +230,7 @@ def test_records_that_are_right_in_their_band_are_not_warned_of() -> None:
 def test_an_accuracy_that_cannot_be_had_is_warned_of() -> None:
     """Failure: motion that is chance was given as right to 0.1 %; truth: rtol 1e-10, from starts 1e-7 rad apart.
 
-    A 6000 whose balls hit a spall at 6760 rev/min. The default run is off by 45 % along x within 3 ms and says
+    A 6000 whose balls hit a spall at 6760 1/min. The default run is off by 45 % along x within 3 ms and says
     nothing: no step is wrong, the motion multiplies what the tolerance leaves, and a moved start as well.
     """
     friction = br.scene.Stribeck(

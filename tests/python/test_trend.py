@@ -109,7 +109,7 @@ def test_the_table_has_the_numbers_of_each_record() -> None:
 
 
 def test_records_that_allow_no_verdict_are_followed_by_their_level() -> None:
-    """Half a second at 100 rev/min is less than a turn: there is a root mean square, and no z."""
+    """Half a second at 100 1/min is less than a turn: there is a root mean square, and no z."""
     rng = np.random.default_rng(2)
     records = [rng.normal(scale=s, size=6000) for s in [1.0] * 6 + [2.0] * 2]
     found = br.trend(records, "6205", 100.0, fs=FS, baseline=5)

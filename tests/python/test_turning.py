@@ -133,7 +133,7 @@ def test_a_hub_runs_and_has_its_frequencies() -> None:
     assert kinematics_of(scene).orders.outer == pytest.approx(1.0)
     speeds = out.to_windows(length=256)["speed"].to_list()
     assert speeds == pytest.approx([-1800.0 * TURN] * len(speeds))
-    assert "1800 rev/min, outer ring" in operation(scene)[-1][1]
+    assert "1800 1/min, outer ring" in operation(scene)[-1][1]
 
 
 def test_a_measured_hub_has_a_comb_with_the_rings_turns() -> None:

@@ -181,7 +181,7 @@ fn columns_that_cannot_change_are_doubted() {
     assert_eq!(out.warnings()[0].category(), "scene");
 }
 
-/// Bore, ball diameter and pitch diameter \[mm\], balls, contact angle \[°\], rev/min, clearance \[µm\].
+/// Bore, ball diameter and pitch diameter \[mm\], balls, contact angle \[°\], 1/min, clearance \[µm\].
 type Size = (f64, f64, f64, usize, f64, f64, f64);
 
 /// Catalogue-like bearings from 2 mm to 1 m bore, thin, heavy, fast, loose and angular.
@@ -477,7 +477,7 @@ fn scenes_drawn_within_the_usual_raise_no_doubt() {
     }
 }
 
-/// Literature: a maker's limiting speed of a 6205 is 18 000 rev/min. 1797 rad/s are 17 160, whole number or not, and no doubt
+/// Literature: a maker's limiting speed of a 6205 is 18 000 1/min. 1797 rad/s are 17 160, whole number or not, and no doubt
 /// follows; the doubt of a faster one says both ways to read its number.
 #[test]
 fn speeds_that_bearings_run_at_are_not_taken_for_turns_a_minute() {
@@ -491,8 +491,8 @@ fn speeds_that_bearings_run_at_are_not_taken_for_turns_a_minute() {
     }
     let text = at(3500.0)[0].to_string();
     for part in [
-        "drive.speed = 3500 rad/s: 33420 rev/min",
-        "3500 rev/min would be 366.5 rad/s",
+        "drive.speed = 3500 rad/s: 33420 1/min",
+        "3500 1/min would be 366.5 rad/s",
     ] {
         assert!(text.contains(part), "{text}");
     }

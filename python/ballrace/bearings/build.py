@@ -30,9 +30,9 @@ _OF_6205 = (52e-3**2 - 39.04e-3**2) * 15e-3
 _ROW_DISTANCE = 1.08
 """Distance of two rows over the ball diameter: 1.03 to 1.18, by the load centres that NSK prints of 52 and 53."""
 
-_SPEED = "speed_rpm, the speed of the inner ring [rev/min]"
+_SPEED = "speed_rpm, the speed of the inner ring [1/min]"
 OUTER = dict.fromkeys(
-    ("outer_speed", "outer_speed_rpm"), "outer_rpm, the speed of the outer ring [rev/min]"
+    ("outer_speed", "outer_speed_rpm"), "outer_rpm, the speed of the outer ring [1/min]"
 )
 _SIZE = (
     'a designation or a Bearing as the first argument, such as br.bearing("6205"); br.catalogue.find(bore=25e-3) '
@@ -84,9 +84,9 @@ def bearing(
         by default 1.22 times that, the thrust under which half of its balls carry load, as from an opposed
         bearing. A double row bearing, back to back without play and preload, takes either sign; by default 0.
     speed_rpm : float, optional
-        Speed of the inner ring [rev/min]; may be left out only where the outer ring turns, and is then 0.
+        Speed of the inner ring [1/min]; may be left out only where the outer ring turns, and is then 0.
     outer_rpm : float, optional
-        Speed of the outer ring with its seat [rev/min], as in hubs, idlers and planets; by default it stands. Its
+        Speed of the outer ring with its seat [1/min], as in hubs, idlers and planets; by default it stands. Its
         defects, waviness and texture turn with it, loads and gravity do not.
     clearance : {"C2", "CN", "C3", "C4", "C5"} or float, optional
         For deep groove bearings: the middle of a class of ISO 5753-1, or a diametral clearance [m]; by default the

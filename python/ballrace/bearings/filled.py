@@ -68,12 +68,12 @@ def filled(
         An argument is not usable.
     """
     if speed_rpm is None and outer_rpm is None:
-        allowed = "the speed of the inner ring [rev/min], such as speed_rpm=1500.0, or outer_rpm"
+        allowed = "the speed of the inner ring [1/min], such as speed_rpm=1500.0, or outer_rpm"
         raise SceneError("speed_rpm", "None", allowed)
     speed_rpm = 0.0 if speed_rpm is None else speed_rpm
-    speed_rpm = finite("speed_rpm", speed_rpm, "rev/min")
+    speed_rpm = finite("speed_rpm", speed_rpm, "1/min")
     if outer_rpm is not None:
-        outer_rpm = finite("outer_rpm", outer_rpm, "rev/min")
+        outer_rpm = finite("outer_rpm", outer_rpm, "1/min")
     one = {named_by_shape(defects): defects} if isinstance(defects, Defect) else defects
     scene = Scene(
         name=name,

@@ -19,7 +19,7 @@ COLUMNS = {
     "sensor_mounting": "pedestal: behind a housing of a measuring chain; else outer_ring",
     "fs": "sampling rate in Hz",
     "n_samples": "number of samples",
-    "speed_rpm": "speed of the rings against each other in rev/min; where it changes, in the middle of the record",
+    "speed_rpm": "speed of the rings against each other in 1/min; where it changes, in the middle of the record",
     "speed_profile": "constant, increasing, decreasing or varying",
     "load": "magnitude of the sum of all loads, in load_unit; of loads that change in the middle of the record",
     "load_unit": "N",

@@ -83,7 +83,7 @@ def _given_speeds(
     """Return the rates of outer and inner ring with their signs [Hz] where the outer ring turns; None as known."""
     turns = isinstance(bearing, Scene) and bearing.outer_speed is not None
     if speed_rpm == 0.0 and outer_rpm is None and not turns:
-        allowed = "not 0, or 0 beside the outer_rpm of a hub [rev/min]"
+        allowed = "not 0, or 0 beside the outer_rpm of a hub [1/min]"
         raise SceneError("speed_rpm", repr(speed_rpm), allowed)
     if outer_rpm is None and (speed_rpm is None or not turns):
         return None
@@ -97,12 +97,10 @@ def nominal_rate(channel: Channel, speed_rpm: float | None) -> float:
     """Return the rate of the shaft that was given, or that the record knows [Hz]."""
     if speed_rpm is None:
         if not channel.shaft:
-            raise SceneError(
-                "speed_rpm", "None", "the speed [rev/min]: the record does not know it"
-            )
+            raise SceneError("speed_rpm", "None", "the speed [1/min]: the record does not know it")
         return abs(channel.shaft)
     if not 0.0 < abs(real(speed_rpm)) < math.inf:
-        raise SceneError("speed_rpm", repr(speed_rpm), "a speed of the inner ring [rev/min], not 0")
+        raise SceneError("speed_rpm", repr(speed_rpm), "a speed of the inner ring [1/min], not 0")
     return abs(real(speed_rpm)) / 60.0
 
 

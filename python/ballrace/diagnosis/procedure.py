@@ -84,11 +84,11 @@ def diagnose(
         A designation such as ``"6205-2RS/C3"``, a bearing of the catalogue, a scene, a row of one, or orders, as a
         mapping of ``ftf``, ``bpfo``, ``bpfi`` and ``bsf``. By default the scene of the record.
     speed_rpm : float, optional
-        Nominal speed of the inner ring, within ``speed_within`` [rev/min]; by default that of the record, or 0
+        Nominal speed of the inner ring, within ``speed_within`` [1/min]; by default that of the record, or 0
         where an ``outer_rpm`` is given. Where the bearing is given as orders or rates of a hub, the relative speed
         of its rings, by default that of the rates.
     outer_rpm : float, optional
-        Nominal speed of the outer ring [rev/min], as in hubs, idlers and planets; of the other sign where the
+        Nominal speed of the outer ring [1/min], as in hubs, idlers and planets; of the other sign where the
         rings turn in opposite ways. By default that of the scene, else the outer ring stands. Where both rings
         turn, their speeds are not looked for in the record.
     fs : float, optional

@@ -320,7 +320,7 @@ def dropping(beside, file, mo, opened):
         0, 1e7, step=1, value=0, label="its sampling rate / Hz (0: that of the file)", debounce=True
     )
     record_rpm = mo.ui.number(
-        0, 1e5, step=0.1, value=0, label="its speed / rev/min (0: that of the file, or as above)", debounce=True
+        0, 1e5, step=0.1, value=0, label="its speed / 1/min (0: that of the file, or as above)", debounce=True
     )  # fmt: skip
     record_unit = mo.ui.dropdown(["m/s^2", "g"], label="its unit, where the file does not have it")
     record_said = mo.ui.dictionary(

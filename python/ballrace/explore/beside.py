@@ -100,7 +100,7 @@ def judged(
 ) -> tuple[Channel, Diagnosis]:
     """Return the beginning of the record's channel, and the verdict on it for the bearing of a scene.
 
-    The speed is by default that of the file, or that of the scene [rev/min]; the unit counts where the file
+    The speed is by default that of the file, or that of the scene [1/min]; the unit counts where the file
     does not have it.
 
     Raises

@@ -46,8 +46,8 @@ def controls(begun: Settings) -> tuple[Control, ...]:
     """Return the controls of a scene's settings; what is not one number in the scene has none."""
     made = (
         *_forces(begun),
-        _speed("speed_rpm", "speed / rev/min", begun.speed_rpm, turns=begun.outer_rpm is None),
-        _speed("outer_rpm", "speed of the outer ring / rev/min", begun.outer_rpm),
+        _speed("speed_rpm", "speed / 1/min", begun.speed_rpm, turns=begun.outer_rpm is None),
+        _speed("outer_rpm", "speed of the outer ring / 1/min", begun.outer_rpm),
         _clearance(begun),
         _plain("temperature_c", "oil temperature / °C", (0.0, 120.0, 1.0), begun.temperature_c),
         _plain("width_mm", "damage: size / mm", (0.1, 8.0, 0.1), begun.width_mm),

@@ -45,9 +45,9 @@ class Settings:
     moment : float
         Moment on the inner ring about x [N m]; one that is not 0 sets the ring free to tilt.
     speed_rpm : float or None
-        Speed of the inner ring [rev/min]; None: it changes, or a torque drives.
+        Speed of the inner ring [1/min]; None: it changes, or a torque drives.
     outer_rpm : float or None
-        Speed of the outer ring [rev/min]; None: it stands, or its speed changes.
+        Speed of the outer ring [1/min]; None: it stands, or its speed changes.
     clearance : float or None
         Diametral clearance of all rows [m]; None: the contact angle says it.
     oil : str or None
@@ -246,14 +246,14 @@ def _force(scene: Scene, *, along: bool) -> float | None:
 
 
 def speed_of(scene: Scene) -> float | None:
-    """Return the speed of the inner ring [rev/min]; None where it is not given, or changes."""
+    """Return the speed of the inner ring [1/min]; None where it is not given, or changes."""
     drive = scene.drive
     constant = isinstance(drive, SpeedDrive) and isinstance(drive.speed, int | float)
     return drive.speed * 30.0 / math.pi if constant else None  # type: ignore[operator,union-attr]
 
 
 def outer_speed_of(scene: Scene) -> float | None:
-    """Return the speed of the outer ring [rev/min]; None where it stands, or its speed changes."""
+    """Return the speed of the outer ring [1/min]; None where it stands, or its speed changes."""
     speed = scene.outer_speed
     return speed * 30.0 / math.pi if isinstance(speed, int | float) else None
 

@@ -97,10 +97,10 @@ def fault_frequencies(
         row, and of the spin where balls spin freely; from older files by a probe that records the motion of a
         ball.
     speed_rpm : float, optional
-        Speed of the inner ring [rev/min]; by default that of the scene, if it is given and constant. Of a bearing
+        Speed of the inner ring [1/min]; by default that of the scene, if it is given and constant. Of a bearing
         without a scene it is 0 where an ``outer_rpm`` is given.
     outer_rpm : float, optional
-        Speed of the outer ring [rev/min], of the other sign where the rings turn in opposite directions; by
+        Speed of the outer ring [1/min], of the other sign where the rings turn in opposite directions; by
         default that of the scene, or 0.
     row : int
         Row of balls, from 0.
@@ -141,7 +141,7 @@ def fault_frequencies(
         of = catalogue[of]
     if isinstance(of, Bearing):
         if speed_rpm is None and outer_rpm is None:
-            raise SceneError("speed_rpm", "None", "the speed of the inner ring [rev/min]")
+            raise SceneError("speed_rpm", "None", "the speed of the inner ring [1/min]")
         return _rolling(of, of.contact_angle, ring_rates(speed_rpm or 0.0, outer_rpm or 0.0))
     scene = of.scene if isinstance(of, Signals) else of
     if not isinstance(scene, Scene):
@@ -325,11 +325,11 @@ def ring_rates(inner_rpm: float, outer_rpm: float) -> _Speeds:
     SceneError
         One is not usable, or balls do not roll.
     """
-    outer = finite("outer_rpm", outer_rpm, "rev/min")
-    inner = finite("speed_rpm", inner_rpm, "rev/min")
+    outer = finite("outer_rpm", outer_rpm, "1/min")
+    inner = finite("speed_rpm", inner_rpm, "1/min")
     if inner == outer:
         excluded = "not 0" if outer == 0.0 else f"not that of the outer ring, {outer:g}"
-        allowed = f"a speed of the inner ring [rev/min], {excluded}"
+        allowed = f"a speed of the inner ring [1/min], {excluded}"
         raise SceneError("speed_rpm", repr(inner_rpm), allowed)
     return outer / 60.0, inner / 60.0
 
@@ -348,7 +348,7 @@ def scene_rates(scene: Scene, speed_rpm: float | None, outer_rpm: float | None) 
         raise SceneError(
             "speed_rpm" if speed_rpm is None else "outer_rpm",
             "None",
-            "the speed [rev/min]: that of the scene is not given, or changes",
+            "the speed [1/min]: that of the scene is not given, or changes",
         )
     outer, inner = (speed * 30.0 / math.pi for speed in known or (0.0, 0.0))
     return ring_rates(

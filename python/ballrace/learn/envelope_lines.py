@@ -54,7 +54,7 @@ class EnvelopeLines(_base.TransformerMixin, _base.BaseEstimator):  # type: ignor
     fs : float, optional
         Sampling rate of arrays [Hz]; records have their own.
     speed_rpm : float, optional
-        Speed of the inner ring for arrays, and for records without one [rev/min]; where the bearing is given as
+        Speed of the inner ring for arrays, and for records without one [1/min]; where the bearing is given as
         orders or rates of a hub, the relative speed of its rings.
     highest : float, optional
         Highest order of the envelope's spectrum that is a feature; by default its orders are no features.
@@ -168,7 +168,7 @@ class EnvelopeLines(_base.TransformerMixin, _base.BaseEstimator):  # type: ignor
     def _features(self, channel: Channel) -> NDArray[np.float64]:
         shaft = channel.shaft if channel.shaft else real(self.speed_rpm) / 60.0
         if not abs(shaft) > 0.0:
-            allowed = "the speed [rev/min], which a record does not know"
+            allowed = "the speed [1/min], which a record does not know"
             raise SceneError("speed_rpm", repr(self.speed_rpm), allowed)
         x = np.asarray(channel.x, dtype=np.float64)
         return features_of(x, channel.fs, abs(shaft), self.kinematics_.orders, self.orders_)

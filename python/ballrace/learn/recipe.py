@@ -48,7 +48,7 @@ class Recipe:
     bearing : str or Bearing
         Deep groove bearing of one row, by its designation or as :class:`ballrace.Bearing`.
     speed_rpm : float or pair of float
-        Speed of the inner ring, 10 to 100 000 [rev/min].
+        Speed of the inner ring, 10 to 100 000 [1/min].
     radial_load : float or pair of float, optional
         Load that presses the inner ring down, above 0 [N]; by default 0.012 to 0.1 of the static rating.
     axial_load : float or pair of float, optional
@@ -94,7 +94,7 @@ class Recipe:
         made = self.made
         if made.kind != "deep_groove":
             raise SceneError("bearing", repr(made.designation), "a deep groove bearing of one row")
-        _checked("speed_rpm", self.speed_rpm, 10.0, 1e5, "rev/min")
+        _checked("speed_rpm", self.speed_rpm, 10.0, 1e5, "1/min")
         _checked("radial_load", self.radial, 1e-3, made.static_rating, "N")
         _checked("axial_load", self.axial, -made.static_rating, made.static_rating, "N")
         if self.slip is not None:
@@ -116,7 +116,7 @@ class Recipe:
 
     @property
     def speed(self) -> tuple[float, float]:
-        """Lowest and highest speed [rev/min]."""
+        """Lowest and highest speed [1/min]."""
         return ends_of(self.speed_rpm)
 
     @property

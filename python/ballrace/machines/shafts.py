@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 __all__ = ["SPEEDS", "shaft"]
 
 SPEEDS = {
-    **dict.fromkeys(("speed", "rpm", "n"), "speed_rpm, the speed of the shaft [rev/min]"),
+    **dict.fromkeys(("speed", "rpm", "n"), "speed_rpm, the speed of the shaft [1/min]"),
     **OUTER,
 }
 _MEANT = {
@@ -86,9 +86,9 @@ def shaft(
         overlap. For angular contact bearings of one row also the side: +1 takes thrust on the shaft towards +z,
         -1 towards -z.
     speed_rpm : float, optional
-        Speed of the shaft [rev/min]; may be left out only where the outer rings turn, and is then 0.
+        Speed of the shaft [1/min]; may be left out only where the outer rings turn, and is then 0.
     outer_rpm : float, optional
-        Speed of all outer rings with their housing [rev/min], as in wheel hubs, idlers and sheaves on an axle; by
+        Speed of all outer rings with their housing [1/min], as in wheel hubs, idlers and sheaves on an axle; by
         default they stand. The housing's mount does not turn.
     masses : sequence of (float, float) or (float, float, float)
         Masses on the shaft: mass [kg], axial place [m], and the diameter of a disc [m] (without: a point).

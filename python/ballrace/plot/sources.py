@@ -111,7 +111,7 @@ def rates_of(
 
 
 def _speed(of: object, bearing: str | Bearing | Scene, speed_rpm: float | None) -> float | None:
-    """Return the speed that is given, or that the record knows [rev/min]; a scene has its own."""
+    """Return the speed that is given, or that the record knows [1/min]; a scene has its own."""
     shaft = getattr(of, "shaft", None)
     if speed_rpm is None and shaft and not isinstance(bearing, Scene):
         return 60.0 * float(shaft)

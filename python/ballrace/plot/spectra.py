@@ -71,7 +71,7 @@ def envelope_spectrum(
     bearing : str, Bearing or Scene, optional
         In place of ``rates``, of a measured record: whose fault frequencies count.
     speed_rpm : float, optional
-        Speed of its inner ring [rev/min]; by default that of the record.
+        Speed of its inner ring [1/min]; by default that of the record.
     row : int, optional
         Row of balls whose frequencies count; by default that of the first defect.
     harmonics, sidebands : int

@@ -158,7 +158,7 @@ def impacts(
     bearing : str, Bearing or Scene, optional
         In place of ``rates``, of a measured record: whose fault frequencies count.
     speed_rpm : float, optional
-        Speed of its inner ring [rev/min]; by default that of the record.
+        Speed of its inner ring [1/min]; by default that of the record.
     row : int, optional
         Row of balls whose frequencies count; by default that of the first defect.
     band : tuple of two floats, optional

@@ -89,7 +89,7 @@ def friction_torque_skf(
     bore, outside_diameter : float
         Diameters d and D [m]; d_m is their mean.
     speed_rpm : float
-        Speed n of one ring against the other [rev/min].
+        Speed n of one ring against the other [1/min].
     viscosity : float
         Kinematic viscosity ν of the oil at its temperature [m²/s], as ``Lubricant.properties()`` has it.
     radial_load, axial_load : float
@@ -156,7 +156,7 @@ def friction_torque_palmgren(
     pitch_diameter : float
         Pitch diameter d_m [m].
     speed_rpm : float
-        Speed n of one ring against the other [rev/min].
+        Speed n of one ring against the other [1/min].
     viscosity : float
         Kinematic viscosity ν of the oil at its temperature [m²/s].
     load : float
@@ -213,7 +213,7 @@ def _load_variables(
 
 
 def _speed(speed_rpm: float) -> float:
-    return abs(_check("speed_rpm", speed_rpm, "rev/min", least=-math.inf))
+    return abs(_check("speed_rpm", speed_rpm, "1/min", least=-math.inf))
 
 
 def _check(

@@ -143,7 +143,7 @@ def _kappa(scene: Scene, films: tuple[RaceFilm, ...]) -> tuple[float, Literal["v
 
 
 def rated_viscosity(speed_rpm: float, pitch_diameter: float) -> float:
-    """Return ν₁ of ISO 281 at a speed [rev/min] and a pitch diameter [m]: the viscosity of κ = 1 [mm²/s]."""
+    """Return ν₁ of ISO 281 at a speed [1/min] and a pitch diameter [m]: the viscosity of κ = 1 [mm²/s]."""
     by_size = (1e3 * pitch_diameter) ** -0.5
     if speed_rpm < 1000.0:
         return float(45_000.0 * speed_rpm**-0.83 * by_size)

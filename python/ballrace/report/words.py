@@ -139,7 +139,7 @@ def _speed(drive: SpeedDrive | TorqueDrive) -> str:
 
 def _turns(speed: TimeFunction, ring: str) -> str:
     if isinstance(speed, int | float):
-        return f"{speed * 30.0 / math.pi:.5g} rev/min, {ring} ring".replace("-", "−")
+        return f"{speed * 30.0 / math.pi:.5g} 1/min, {ring} ring".replace("-", "−")
     return f"changes in time, {ring} ring"
 
 

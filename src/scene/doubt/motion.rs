@@ -11,7 +11,7 @@ use crate::scene::{Contact, Drive, Friction, Row, Scene, TimeFunction};
 /// test rig reached 3.9 million (E. N. Bamberger, E. V. Zaretsky, H. Signer, NASA TN D-7870, 1975).
 const SPEED_FACTOR: f64 = 3e6;
 /// The same of bearings whose balls touch in the middle of the groove: makers' reference speeds of deep groove bearings in oil
-/// end near 1.1 million (6205: 28 000 rev/min), and those for grease or by the cage's strength near 700 000.
+/// end near 1.1 million (6205: 28 000 1/min), and those for grease or by the cage's strength near 700 000.
 const DEEP_GROOVE: f64 = 1.2e6;
 /// Nominal contact angle up to which a bearing is one of them \[rad\]; spindles and dental turbines begin at 12°.
 const DEEP_GROOVE_ANGLE: f64 = 0.17;
@@ -61,7 +61,7 @@ pub(super) fn look(scene: &Scene, found: &mut Vec<Doubt>) {
             let speed = inner.max(outer);
             let force = unbalance.moment * speed.powi(2);
             let usual = format!(
-                "machines keep below {UNBALANCE} kg m; it pulls with {} N at {} rev/min",
+                "machines keep below {UNBALANCE} kg m; it pulls with {} N at {} 1/min",
                 number(force),
                 number(speed * 60.0 / TAU)
             );
@@ -157,8 +157,8 @@ fn speed(scene: &Scene, found: &mut Vec<Doubt>) {
             "the fastest bearings, of aircraft engines,"
         };
         let usual = format!(
-            "{} rev/min, times the pitch diameter {} mm/min, where {fastest} come near {}; speeds are in radians a second: {} \
-             rev/min would be {} rad/s",
+            "{} 1/min, times the pitch diameter {} mm/min, where {fastest} come near {}; speeds are in radians a second: {} \
+             1/min would be {} rad/s",
             number(turns),
             number(factor(row)),
             number(limit(row)),

@@ -44,7 +44,7 @@ fn speed(scene: &Scene, found: &mut Vec<Doubt>) {
              speed_rpm in turns a minute",
             number(factor)
         );
-        let value = format!("{} rev/min", number(turns));
+        let value = format!("{} 1/min", number(turns));
         found.push(Doubt::new("drive.speed", value, usual));
     }
 }

@@ -64,7 +64,7 @@ pub struct Limits {
 /// use ballrace::contact::film::{Effects, Film, LubricatedRace, Oil, Reference};
 /// use ballrace::scene::Lubricant;
 /// let oil = Oil::new(&Lubricant::named("vg68", 328.15))?;
-/// // The outer race of a 6205 under 250 N a ball, at 1797 rev/min.
+/// // The outer race of a 6205 under 250 N a ball, at 1797 1/min.
 /// let race = LubricatedRace {
 ///     sigma: 1.0, ball_diameter: 7.94e-3, pitch_diameter: 39.04e-3, groove_radius: 0.525 * 7.94e-3,
 ///     contact_angle: 0.0, reduced_modulus: 206e9 / 0.91,

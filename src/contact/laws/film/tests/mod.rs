@@ -12,7 +12,7 @@ use crate::scene::Lubricant;
 
 /// E' of steel \[Pa\].
 const MODULUS: f64 = 206e9 / 0.91;
-/// 1797 rev/min \[rad/s\].
+/// 1797 1/min \[rad/s\].
 const SPEED: f64 = 1797.0 / 60.0 * TAU;
 
 /// VG 68 at a temperature in °C.
@@ -55,7 +55,7 @@ fn film_of(oil: &Oil) -> Film {
     Film::new(oil, &race, reference(&race, 250.0, SPEED), Effects::ALL)
 }
 
-/// The reference contact: outer race, VG 68, 55 °C, 250 N, 1797 rev/min.
+/// The reference contact: outer race, VG 68, 55 °C, 250 N, 1797 1/min.
 fn film() -> Film {
     film_of(&vg68(55.0))
 }

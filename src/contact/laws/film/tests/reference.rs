@@ -166,7 +166,7 @@ fn thrust_bearing_turns_as_hard_as_measured() {
     for (turns, measured) in [(120.0, 1.89e-4), (210.0, 2.49e-4)] {
         let at = Conjunction::new(&race, 0.125, turns / 60.0 * TAU);
         let torque = 6.0 * radius * bare_rolling(&at, &oil);
-        println!("{turns} rev/min: {torque:e} N m");
+        println!("{turns} 1/min: {torque:e} N m");
         assert!((0.7..1.1).contains(&(torque / measured)), "{torque:e}");
     }
 }
