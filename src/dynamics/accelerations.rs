@@ -30,7 +30,7 @@ impl Dynamics<'_> {
     fn acceleration(&self, t: f64, body: BodyId) -> [f64; DOFS] {
         let (force, mobility) = (self.forces.of(body), &self.model.mobility[body]);
         let mut acceleration = std::array::from_fn(|i| force[i] * mobility[i]);
-        if let BodyKind::Ring(race) = body.kind() {
+        if let BodyKind::Ring(race) = self.model.layout().kind(body) {
             for dof in Dof::ALL {
                 if let Some(prescribed) = self.prescribed(t, race, dof) {
                     acceleration[dof] = prescribed;

@@ -75,6 +75,7 @@ pub(crate) fn contributions_with_films(
         t,
         state: &state,
         rows: 0..model.rows.len(),
+        times: 1.0,
         springs: &model.springs,
         rings: tilted.as_ref().map(<[_; 2]>::each_ref),
     };

@@ -19,7 +19,8 @@ mod tilted;
 mod tilted_tests;
 
 use crate::base::pool::Pool;
-use crate::forces::cage::CageLinks;
+use crate::forces::cage::links::LinkForces;
+use crate::forces::cage::ring::{self as cage_ring, CageRings};
 use crate::forces::{self, Force, ForceSums, Instant, State, Table, Use};
 use crate::integrate::System;
 use crate::model::{BodyId, BodyKind, DOFS, Degree, Dof, Model, Race, Spring};
@@ -83,7 +84,7 @@ impl<'m> Dynamics<'m> {
             .degrees()
             .enumerate()
             .filter_map(|(at, (body, dof))| {
-                let BodyKind::Ring(race) = body.kind() else {
+                let BodyKind::Ring(race) = model.layout().kind(body) else {
                     return None;
                 };
                 (model.degree(race, dof) == Degree::Driven).then_some((at, race, dof))
@@ -224,6 +225,11 @@ impl<'m> Dynamics<'m> {
         self.contacts.lost().map(BodyId::ball)
     }
 
+    /// The ball that was out of its pocket in the last evaluation, if any, by its number among all balls.
+    pub(crate) fn out_of_pocket(&self) -> Option<usize> {
+        cage_ring::out_of_pocket(self.model, &self.state, self.contacts.rows())
+    }
+
     /// The forces on every body at a state of the run: x, y, z \[N\] and about z \[N m\]. For a direction that is fixed
     /// or driven their negative is what holds it. Bodies that a reduction leaves out have none.
     ///
@@ -289,7 +295,7 @@ impl<'m> Dynamics<'m> {
 
     /// Adds the forces of the cage at the state last read.
     pub(crate) fn evaluate_cage(&mut self) {
-        self.apply(0.0, [&[&CageLinks], &[]]);
+        self.apply(0.0, [&[&LinkForces, &CageRings], &[]]);
     }
 
     /// Adds the forces that are neither contacts nor constant.
@@ -308,6 +314,11 @@ impl<'m> Dynamics<'m> {
             t,
             state: &self.state,
             rows: self.contacts.rows(),
+            times: if self.contacts.is_mirrored() {
+                2.0
+            } else {
+                1.0
+            },
             springs: &self.springs,
             rings,
         };

@@ -28,8 +28,9 @@ pub(crate) use state::{State, Table};
 pub(crate) use sums::{ForceSums, Instant, RingWrench};
 
 /// The forces that are not contacts, in the order in which they are summed and listed.
-pub(crate) const ALL: [&dyn Force; 8] = [
-    &cage::CageLinks,
+pub(crate) const ALL: [&dyn Force; 9] = [
+    &cage::links::LinkForces,
+    &cage::ring::CageRings,
     &drag::Drag,
     &support::Supports,
     &gravity::Gravity,

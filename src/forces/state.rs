@@ -187,8 +187,11 @@ impl State {
 
     /// Euler parameters of a ball that has them, and their rates \[1/s\].
     pub fn attitude(&self, body: BodyId) -> Option<[[f64; 4]; 2]> {
-        let tumbling = self.layout?.tumbling();
-        let ball = body.as_ball().filter(|ball| tumbling.contains(ball))?;
+        let layout = self.layout?;
+        let tumbling = layout.tumbling();
+        let ball = layout
+            .as_ball(body)
+            .filter(|ball| tumbling.contains(ball))?;
         Some(self.attitudes[ball - tumbling.start])
     }
 

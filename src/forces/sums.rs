@@ -18,6 +18,8 @@ pub(crate) struct Instant<'a> {
     pub rows: Range<usize>,
     /// Supports of directions that move.
     pub springs: &'a [Spring],
+    /// How many rows each of them stands for: two, where the second row is an image of the first.
+    pub times: f64,
     /// Rings that may tilt; none where they stay parallel.
     pub rings: Option<[&'a TiltedRing; 2]>,
 }

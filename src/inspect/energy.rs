@@ -17,7 +17,7 @@ pub struct Energy {
     pub contact: f64,
     /// Stored in supports.
     pub support: f64,
-    /// Stored in the cage.
+    /// Stored in the cage, of a ring on its land too.
     pub cage: f64,
     /// Energy in the field of gravity, 0 at the origin.
     pub gravity: f64,
@@ -130,11 +130,15 @@ fn of_tilt(model: &Model, y: &[f64]) -> f64 {
     Race::BOTH.map(of).into_iter().sum()
 }
 
-/// Forces of the cage links of a row, positive in tension \[N\]; empty without a cage.
+/// Forces of the cage links of a row, positive in tension, or of the pockets of a ring on its balls, positive on one that leads \[N\]; empty
+/// without a cage.
 ///
 /// # Panics
 /// If the length of `y` is not [`Model::dim`], or there is no such row.
 pub fn cage_forces(model: &Model, y: &[f64], row: usize) -> Vec<f64> {
-    let links = forces::cage::of_row(model, y, &model.rows[row]);
+    if model.rows[row].cage.is_some() {
+        return forces::cage::ring::pocket_forces(model, y, row);
+    }
+    let links = forces::cage::links::of_row(model, y, &model.rows[row]);
     links.iter().map(|link| link.force).collect()
 }

@@ -3,7 +3,7 @@
 use crate::base::quantities::{force, number};
 use crate::forces::{self, Damper};
 use crate::inspect::contact;
-use crate::model::{BodyId, Dof, Model, Race};
+use crate::model::{BodyId, BodyKind, Dof, Model, Race};
 
 /// Elements that are named at most.
 const NAMED: usize = 4;
@@ -76,6 +76,10 @@ fn of_contact(model: &Model, y: &[f64], j: usize, race: Race) -> Option<StiffEle
 
 /// Whether a body is the one that is asked for, or a ball of the same row; all are where none is asked for.
 fn concerned(model: &Model, asked: Option<BodyId>, body: BodyId) -> bool {
-    let row = |of: BodyId| of.as_ball().map(|ball| model.balls[ball].row);
+    let row = |of: BodyId| match model.layout().kind(of) {
+        BodyKind::Ball(ball) => Some(model.balls[ball].row),
+        BodyKind::Cage(row) => Some(row),
+        BodyKind::Ring(_) => None,
+    };
     asked.is_none_or(|asked| asked == body || row(asked).is_some() && row(asked) == row(body))
 }

@@ -163,7 +163,8 @@ pub(super) fn groove_radius(row: &Row, race: Race) -> f64 {
     row.ball_diameter * conformity(row, race)
 }
 
-fn land_radius(row: &Row, race: Race) -> f64 {
+/// Radius of a ring's shoulders \[m\]; 0.3 D beyond the pitch circle where a race has none.
+pub(super) fn land_radius(row: &Row, race: Race) -> f64 {
     let shoulders = match race {
         Race::Outer => row.outer_shoulders,
         Race::Inner => row.inner_shoulders,

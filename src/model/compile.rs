@@ -8,15 +8,15 @@ use super::loads::{loads, moments};
 use super::race::{RaceGeometry, geometry};
 use super::ring::layout_of;
 use super::{
-    Ball, BodyId, Dof, Model, Race, RingModel, RowModel, Scales, Spring, UnbalanceModel, demand,
-    nodes,
+    Ball, BodyId, CageModel, Dof, Model, Race, RingModel, RowModel, Scales, Spring, UnbalanceModel,
+    demand, nodes,
 };
 use crate::base::error::{Error, Result};
 use crate::base::quantities::number;
 use crate::contact::hertz::Hertz;
 use crate::contact::{
     BallSide, Damping, Elastic, Law, MOST_AT_ONCE, Pair, Rules, Shape, SurfaceDefect, Torus,
-    Traction, Waves, ZoneSlices, met_at_once,
+    Traction, V2, Waves, ZoneSlices, met_at_once,
 };
 use crate::scene::{self, Approximations, Defect, Mount, Row, Scene, Surface};
 use crate::simd::InstructionSet;
@@ -50,6 +50,10 @@ pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
             class: i,
             texture_widths: None,
             drag: 0.0,
+            cage: scene.cage_ring().map(|ring| {
+                let (ball, _) = ball_mass(scene, row, row.ball_diameter);
+                Box::new(CageModel::new(scene, ring, (i, row), ball))
+            }),
         });
         for index in 0..row.ball_count {
             let error = row.diameter_errors.get(index).copied().unwrap_or(0.0);
@@ -58,8 +62,12 @@ pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
             let angle = row.start_angle + 2.0 * PI * index as f64 / row.ball_count as f64;
             let (sin, cos) = angle.sin_cos();
             let pitch = row.pitch_diameter / 2.0;
+            let [x, y] = match &rows[i].cage {
+                None => [pitch * cos, pitch * sin],
+                Some(cage) => in_pocket(scene, cage, row.start_angle, index).into(),
+            };
             bodies.push(Body {
-                nominal: [pitch * cos, pitch * sin, row.axial_position, 0.0],
+                nominal: [x, y, row.axial_position, 0.0],
                 name: format!("row{i}.ball{index}"),
                 mass: [mass, mass, mass, inertia],
                 degrees: row.ball_support.mounts(Mount::Free).map(Degree::from),
@@ -74,6 +82,10 @@ pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
                 side,
             });
         }
+    }
+    for (i, row) in rows.iter().enumerate() {
+        let cage = row.cage.as_ref();
+        bodies.extend(cage.map(|cage| cage.body(i, &scene.rows[i])));
     }
     classify(&mut rows);
     let unbalances = unbalances(scene, &bodies, &rings)?;
@@ -101,6 +113,15 @@ pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
     check_pits_at_once(&model)?;
     fit_nodes(&mut model);
     Ok(model)
+}
+
+/// Place on the pitch circle in the middle of a cage's pocket, where the cage rests.
+fn in_pocket(scene: &Scene, cage: &CageModel, turned: f64, pocket: usize) -> V2 {
+    let (sin, cos) = turned.sin_cos();
+    let own = cage.pockets[pocket];
+    let direction = V2::new(cos * own.x - sin * own.y, sin * own.x + cos * own.y);
+    let place = cage.sag(scene.gravity) + direction * cage.radius;
+    place * (cage.radius / place.norm())
 }
 
 /// Refuses more pits than a contact has room for.

@@ -87,9 +87,11 @@ pub enum BodyKind {
     Ring(Race),
     /// A ball, by its number among the balls of all rows.
     Ball(usize),
+    /// A cage that is a ring, by its row.
+    Cage(usize),
 }
 
-/// A body of a model: outer ring, inner ring, then all balls row by row.
+/// A body of a model: outer ring, inner ring, all balls row by row, then the cages that are rings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 pub struct BodyId(usize);
 
@@ -117,25 +119,6 @@ impl BodyId {
         self.0
     }
 
-    /// Ring or ball.
-    #[inline]
-    pub const fn kind(self) -> BodyKind {
-        match self.0 {
-            0 => BodyKind::Ring(Race::Outer),
-            1 => BodyKind::Ring(Race::Inner),
-            body => BodyKind::Ball(body - RINGS),
-        }
-    }
-
-    /// The body's number among the balls of all rows; none for a ring.
-    #[inline]
-    pub const fn as_ball(self) -> Option<usize> {
-        match self.kind() {
-            BodyKind::Ball(ball) => Some(ball),
-            BodyKind::Ring(_) => None,
-        }
-    }
-
     /// The numbers of so many bodies from this one on, which are neighbours in any table of bodies.
     #[inline]
     pub(crate) fn range(self, count: usize) -> Range<usize> {
@@ -153,6 +136,8 @@ impl BodyId {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Layout {
     bodies: usize,
+    /// Cages that are rings, behind the balls.
+    cages: usize,
     /// Tilts of outer and inner ring that move: bits in the order of their places.
     tilts: u8,
     /// Whether balls spin freely.
@@ -167,10 +152,52 @@ impl Layout {
     pub const fn of_balls(balls: usize) -> Self {
         Self {
             bodies: RINGS + balls,
+            cages: 0,
             tilts: 0,
             turns: false,
             tumbling: [0; 2],
         }
+    }
+
+    /// The same with cages that are rings.
+    pub(crate) fn with_cages(self, cages: usize) -> Self {
+        Self {
+            bodies: self.bodies - self.cages + cages,
+            cages,
+            ..self
+        }
+    }
+
+    /// Number of balls.
+    #[inline]
+    const fn balls(self) -> usize {
+        self.bodies - RINGS - self.cages
+    }
+
+    /// Ring, ball or cage.
+    #[inline]
+    pub const fn kind(self, body: BodyId) -> BodyKind {
+        match body.0 {
+            0 => BodyKind::Ring(Race::Outer),
+            1 => BodyKind::Ring(Race::Inner),
+            at if at < RINGS + self.balls() => BodyKind::Ball(at - RINGS),
+            at => BodyKind::Cage(at - RINGS - self.balls()),
+        }
+    }
+
+    /// The number of a ball among those of all rows; none for other bodies.
+    #[inline]
+    pub const fn as_ball(self, body: BodyId) -> Option<usize> {
+        match self.kind(body) {
+            BodyKind::Ball(ball) => Some(ball),
+            BodyKind::Ring(_) | BodyKind::Cage(_) => None,
+        }
+    }
+
+    /// The cage of a row, which is a ring.
+    #[inline]
+    pub const fn cage(self, row: usize) -> BodyId {
+        BodyId(RINGS + self.balls() + row)
     }
 
     /// The same where balls spin freely, some of them with an attitude.
@@ -200,7 +227,9 @@ impl Layout {
     pub const fn has(self, body: BodyId, dof: Dof) -> bool {
         match dof {
             Dof::TiltX | Dof::TiltY => body.0 < RINGS && self.tilts >> tilt_bit(body, dof) & 1 == 1,
-            Dof::TurnX | Dof::TurnY => body.0 >= RINGS && self.turns,
+            Dof::TurnX | Dof::TurnY => {
+                self.turns && body.0 >= RINGS && body.0 < RINGS + self.balls()
+            }
             Dof::E0 | Dof::E1 | Dof::E2 | Dof::E3 => {
                 let [first, count] = self.tumbling;
                 body.0 >= RINGS + first && body.0 < RINGS + first + count
@@ -230,11 +259,7 @@ impl Layout {
     /// Offset at which the attitudes of balls begin.
     #[inline]
     const fn first_attitude(self) -> usize {
-        let turns = if self.turns {
-            2 * (self.bodies - RINGS)
-        } else {
-            0
-        };
+        let turns = if self.turns { 2 * self.balls() } else { 0 };
         self.first_turn() + turns
     }
 
@@ -299,7 +324,7 @@ impl Layout {
         carried
     }
 
-    /// Rings and balls in their order.
+    /// All bodies in their order.
     pub fn bodies(self) -> impl ExactSizeIterator<Item = BodyId> + Clone {
         (0..self.bodies).map(BodyId)
     }

@@ -1,10 +1,11 @@
 //! The compiled scene: indices, arrays and constants that a run only reads.
 //!
-//! Bodies stand in one order everywhere: outer ring, inner ring, balls row by row. The state vector holds
+//! Bodies stand in one order everywhere: outer ring, inner ring, balls row by row, cages that are rings. The state vector holds
 //! (x, y, z, θ) of every body, then (vx, vy, vz, ω) of every body; [`Layout`] says where, also of what tilts and spins freely.
 
 mod at_rest;
 mod body;
+mod cage;
 mod compile;
 mod defects;
 mod demand;
@@ -32,6 +33,7 @@ use crate::simd::{InstructionSet, LANES};
 
 pub(crate) use at_rest::{AtRest, HeaviestContact, RaceLoads};
 pub use body::{Body, Degree};
+pub(crate) use cage::{CageModel, Carried, CentringSpring, Land};
 pub(crate) use compile::compile_placed;
 pub(crate) use defects::{ball_defect, race_defect};
 pub use dof::{DOFS, Dof};
@@ -95,6 +97,8 @@ pub(crate) struct RowModel {
     pub texture_widths: Option<[f64; 2]>,
     /// Drag of a ball over the square of its speed \[N s²/m²\].
     pub drag: f64,
+    /// Its cage, where that is a ring.
+    pub cage: Option<Box<CageModel>>,
 }
 
 impl RowModel {
@@ -120,6 +124,12 @@ impl RowModel {
     /// Whether the row's balls have friction on either race, or are resisted as they roll.
     pub fn has_friction(&self) -> bool {
         self.pairs.iter().any(|pair| pair.law.turns_balls())
+    }
+
+    /// Whether races or pockets turn its balls.
+    pub fn turns_balls(&self) -> bool {
+        let rubs = |cage: &CageModel| cage.friction > 0.0;
+        self.has_friction() || self.cage.as_deref().is_some_and(rubs)
     }
 
     /// Whether the forces of its contacts depend on how fast they slip or close.
@@ -171,7 +181,7 @@ impl Model {
         &self.scene
     }
 
-    /// Number of bodies: two rings and all balls.
+    /// Number of bodies: two rings, all balls and the cages that are rings.
     pub fn body_count(&self) -> usize {
         self.bodies.len()
     }
@@ -187,7 +197,7 @@ impl Model {
         self.layout
     }
 
-    /// Names of the bodies in their order: `outer`, `inner`, `row0.ball0`, …
+    /// Names of the bodies in their order: `outer`, `inner`, `row0.ball0`, …, and of cages that are rings `row0.cage`.
     pub fn bodies(&self) -> Vec<String> {
         self.bodies.iter().map(|body| body.name.clone()).collect()
     }
@@ -263,11 +273,12 @@ impl Model {
         &self.scales
     }
 
-    /// The radius that makes a length of a body's rotation \[m\]: a ball's own, half the mean pitch diameter of the rows for
-    /// a ring.
+    /// The radius that makes a length of a body's rotation \[m\]: a ball's own, the pitch radius for a cage, half the
+    /// mean pitch diameter of the rows for a ring.
     pub(crate) fn radius(&self, body: BodyId) -> f64 {
-        match body.kind() {
+        match self.layout.kind(body) {
             BodyKind::Ball(ball) => self.balls[ball].side.radius,
+            BodyKind::Cage(row) => self.scene.rows[row].pitch_diameter / 2.0,
             BodyKind::Ring(_) => {
                 let pitch = self.scene.rows.iter().map(|row| row.pitch_diameter);
                 pitch.sum::<f64>() / self.rows.len() as f64 / 2.0

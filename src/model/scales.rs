@@ -77,9 +77,12 @@ impl Scales {
                 (bottom.force(approach + step) - bottom.force(approach - step)) / (2.0 * step)
             });
             scales.load = scales.load.max(load);
-            let cage = scene.cage.as_ref().map_or(0.0, |cage| 4.0 * cage.stiffness);
+            let cage = scene.cage_links().map_or(0.0, |cage| 4.0 * cage.stiffness);
             let on_ball = (stiffness[0] + stiffness[1] + cage) / body.mass[Dof::X];
             scales.frequency = scales.frequency.max(on_ball.sqrt());
+            if let Some(cage) = &row.cage {
+                scales.frequency = scales.frequency.max(cage.frequency());
+            }
             for race in Race::BOTH {
                 let ring = &model.bodies[race.ring()];
                 let balls = model.rows.len() as f64 * row.count as f64;

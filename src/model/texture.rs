@@ -216,11 +216,11 @@ fn check_memory(last: u32, count: usize) -> Result<()> {
 }
 
 /// Random numbers of a surface that are found by their numbers, so that more orders, balls or threads change none of them.
-struct Draw(u64);
+pub(super) struct Draw(u64);
 
 impl Draw {
-    /// The random numbers of a seed, and of row, body (0 outer race, 1 inner race, 2 ball) and ball.
-    fn new(seed: u64, of: [u64; 3]) -> Self {
+    /// The random numbers of a seed, and of row, body (0 outer race, 1 inner race, 2 ball, 3 cage) and ball.
+    pub(super) fn new(seed: u64, of: [u64; 3]) -> Self {
         Self(of.into_iter().fold(mixed(seed), |z, x| mixed(z ^ x)))
     }
 
@@ -235,7 +235,7 @@ impl Draw {
     }
 
     /// u and √(−ln v) of an order: a phase in turns, and an amplitude after Rayleigh.
-    fn of(&self, order: u32) -> (f64, f64) {
+    pub(super) fn of(&self, order: u32) -> (f64, f64) {
         let z = mixed(self.0 ^ u64::from(order));
         let [u, v] = [0, 1].map(|part| mixed(z ^ part) >> 11);
         let scale = 2_f64.powi(-53);

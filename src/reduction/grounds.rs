@@ -4,7 +4,7 @@ use super::AxialPlaces;
 use super::course::{Course, Prescribed};
 use crate::base::every::every;
 use crate::forces;
-use crate::model::{BodyId, Degree, Dof, Model, Race};
+use crate::model::{BodyId, BodyKind, Degree, Dof, Model, Race};
 
 /// Why a degree of freedom is not integrated.
 #[derive(Clone, Copy, PartialEq)]
@@ -69,11 +69,16 @@ pub(super) struct Grounds {
 impl Grounds {
     /// Why a degree of freedom can be left out.
     pub fn reason(&self, model: &Model, body: BodyId, dof: Dof) -> Option<Reason> {
-        let ball = body.as_ball().map(|j| &model.balls[j]);
-        if self.mirrored && ball.is_some_and(|ball| ball.row == 1) {
+        let kind = model.layout().kind(body);
+        let (ball, row) = match kind {
+            BodyKind::Ring(_) => (None, None),
+            BodyKind::Ball(j) => (Some(&model.balls[j]), Some(model.balls[j].row)),
+            BodyKind::Cage(row) => (None, Some(row)),
+        };
+        if self.mirrored && row == Some(1) {
             return Some(Reason::Copy);
         }
-        if ball.is_some_and(|ball| self.idle == Some(ball.row)) {
+        if row.is_some() && self.idle == row {
             return Some(Reason::Idle);
         }
         match model.bodies[body].degrees[dof] {
@@ -92,7 +97,7 @@ impl Grounds {
                     Some(Reason::Rolling)
                 }
                 (Dof::Theta, Some(ball)) if self.exact => {
-                    let smooth = !model.rows[ball.row].has_friction();
+                    let smooth = !model.rows[ball.row].turns_balls();
                     let whole = ball.side.defects.is_empty() && ball.side.waves.is_round();
                     let loose = stiffness == 0.0 && damping == 0.0;
                     (smooth && whole && loose).then_some(Reason::NoMoment)
@@ -117,19 +122,21 @@ impl Grounds {
         );
         let (scene, at) = (&model.scene, |place: f64| (t, place));
         match (reason, dof) {
-            (Reason::Copy, _) | (Reason::Rolling, Dof::Y) | (Reason::Idle, Dof::X | Dof::Y) => None,
+            (Reason::Copy, _) | (Reason::Rolling, Dof::Y) => None,
+            (Reason::Idle, Dof::X | Dof::Y) if layout.as_ball(body).is_some() => None,
             (Reason::Mirror, _) => Some(Course::steady(at(model.bodies[body].nominal[dof]), 0.0)),
             (Reason::AxiallyFixed, _) => {
                 let places = self.axial_places.as_ref()?;
                 Some(Course::steady(at(places.of(model, body)), 0.0))
             }
-            (Reason::Idle, Dof::Z) => Some(Course::steady(at(place), 0.0)),
+            // The cage of a row that is left out turns on.
+            (Reason::Idle, Dof::X | Dof::Y | Dof::Z) => Some(Course::steady(at(place), 0.0)),
             (Reason::Driven(of), _) => {
                 let follows = Race::BOTH.map(|race| f64::from(race == of));
                 Some(Course::driven(at(place), speed, follows, scene))
             }
             (Reason::Rolling, _) => {
-                let row = model.balls[body.as_ball()?].row;
+                let row = model.balls[layout.as_ball(body)?].row;
                 let (_, at_rest) = model.rolling_shares(row);
                 Some(Course::geared(at(place), speed, at_rest, scene))
             }
@@ -153,7 +160,8 @@ pub(super) fn is_felt(model: &Model, motion: &Prescribed, reason: Reason) -> boo
         }
         // Only a defect makes the angle of a ball matter.
         Reason::Rolling => {
-            let ball = motion.body.as_ball().map(|j| &model.balls[j].side);
+            let ball = model.layout().as_ball(motion.body);
+            let ball = ball.map(|j| &model.balls[j].side);
             ball.is_some_and(|side| !side.defects.is_empty())
         }
         _ => true,

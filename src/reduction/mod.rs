@@ -78,8 +78,9 @@ pub(crate) struct AxialPlaces {
 impl AxialPlaces {
     /// The one that a body keeps \[m\].
     pub fn of(&self, model: &Model, body: BodyId) -> f64 {
-        match body.kind() {
+        match model.layout().kind(body) {
             BodyKind::Ring(race) => self.rings[race],
+            BodyKind::Cage(row) => self.rows[row],
             BodyKind::Ball(ball) => self.rows[model.balls[ball].row],
         }
     }
@@ -175,7 +176,7 @@ impl Reduction {
                     .is_ok()
             });
             let rub: Vec<usize> = (0..model.rows.len())
-                .filter(|row| model.rows[*row].has_friction())
+                .filter(|row| model.rows[*row].turns_balls())
                 .collect();
             if rub.len() == model.rows.len() {
                 obstacle("balls without spin", "friction turns them".to_owned());
@@ -428,5 +429,11 @@ fn copy_row(model: &Model, half: &mut [f64], sum: f64) {
         let mut image = bodies[first.after(k).index()];
         image[Dof::Z] = sum - image[Dof::Z];
         bodies[second.after(k).index()] = image;
+    }
+    if model.rows[0].cage.is_some() {
+        let [from, to] = [0, 1].map(|row| model.layout().cage(row).index());
+        let mut image = bodies[from];
+        image[Dof::Z] = sum - image[Dof::Z];
+        bodies[to] = image;
     }
 }

@@ -72,6 +72,9 @@ fn images(model: &Model, first: &RowModel, second: &RowModel, start: &[f64]) -> 
         first.count == second.count && first.cage_distance == second.cage_distance,
         || "the rows have different balls".to_owned(),
     )?;
+    require(first.cage == second.cage, || {
+        "the cages of the rows differ".to_owned()
+    })?;
     for race in Race::BOTH {
         require(
             pair_is_image(&first.pairs[race], &second.pairs[race], sum),

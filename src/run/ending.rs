@@ -13,6 +13,8 @@ const CRAWLING: &str = "the step has collapsed to less than 1e-5 of the contacts
 pub(crate) enum Halt {
     /// A ball, by its number among all balls, is where its groove does not hold it.
     Escaped(usize),
+    /// A ball, likewise, that is no longer in its pocket.
+    OutOfPocket(usize),
     /// A body does what no bearing does.
     RanAway(BodyId, String),
     /// The step is too small to wait for.
@@ -26,6 +28,12 @@ impl Halt {
             Self::Escaped(ball) => (
                 Some(BodyId::ball(*ball)),
                 escape::reason(model, last, *ball),
+            ),
+            Self::OutOfPocket(ball) => (
+                Some(BodyId::ball(*ball)),
+                format!(
+                    "the ball has left its pocket in the cage; check cage.ring.pocket_clearance and cage.ring.stiffness, or {FINER}"
+                ),
             ),
             Self::RanAway(body, does) => {
                 let advice = format!("check loads, drive and supports, or {FINER}");

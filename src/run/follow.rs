@@ -17,7 +17,7 @@ use crate::base::words::{Remembered, Words};
 use crate::dynamics::Dynamics;
 use crate::inspect;
 use crate::integrate::{self, DenseStep, Observer, Options, StepStatistics};
-use crate::model::{BodyId, Model};
+use crate::model::Model;
 use crate::signals::Statistics;
 
 /// Number of steps after which the clock is read: of a small model's step that would take a fiftieth. One of a large model is long enough to ask
@@ -281,19 +281,21 @@ impl<'m> Observer<Dynamics<'m>> for Follower<'_, '_, '_> {
 }
 
 impl Follower<'_, '_, '_> {
-    /// Counts what the evaluation at the accepted state, the last one, has met; the ball that it lost.
-    fn count(&mut self, dynamics: &Dynamics<'_>) -> Option<usize> {
+    /// Counts what the evaluation at the accepted state, the last one, has met; why the run ends with it.
+    fn count(&mut self, dynamics: &Dynamics<'_>) -> Option<Halt> {
         self.of.pulls += dynamics.pulls();
         self.of.truncated += dynamics.truncated();
-        dynamics.lost().and_then(BodyId::as_ball)
+        let layout = dynamics.model().layout();
+        let lost = dynamics.lost().and_then(|body| layout.as_ball(body));
+        lost.map(Halt::Escaped)
+            .or_else(|| dynamics.out_of_pocket().map(Halt::OutOfPocket))
     }
 
     /// Breaks off where the motion is no longer worth following.
-    fn judge(&mut self, step: &DenseStep<'_>, lost: Option<usize>) -> ControlFlow<()> {
+    fn judge(&mut self, step: &DenseStep<'_>, lost: Option<Halt>) -> ControlFlow<()> {
         let crawls = self.of.collapse.after(step.h());
         let left = || self.bounds.left(step.y1());
         let why = lost
-            .map(Halt::Escaped)
             .or_else(|| left().map(|(body, does)| Halt::RanAway(body, does)))
             .or_else(|| crawls.then_some(Halt::Crawls));
         match why {

@@ -35,7 +35,7 @@ impl Bounds {
         let pitch = |row: &Row| row.pitch_diameter;
         let pitch = scene.rows.iter().map(pitch).fold(0.0, f64::max);
         let fastest = FASTEST.max(driven * pitch);
-        let place = |&(body, dof): &(BodyId, Dof)| match (body.kind(), dof) {
+        let place = |&(body, dof): &(BodyId, Dof)| match (model.layout().kind(body), dof) {
             (_, Dof::TiltX | Dof::TiltY) => (0.0, FURTHEST),
             (_, dof) if dof.is_rotation() => (0.0, f64::MAX),
             (BodyKind::Ball(_), Dof::X | Dof::Y) => (0.0, 1.5 * pitch),

@@ -156,8 +156,13 @@ fn needed(model: &Model, y0: &[f64]) -> f64 {
     if slowest.is_infinite() && !pairs.any(takes_energy) {
         return 0.0;
     }
-    let cage = model.scene.cage.as_ref();
-    let has_play = cage.is_some_and(|cage| cage.play > 0.0);
+    let links = model.scene.cage_links();
+    let has_play = links.is_some_and(|cage| cage.play > 0.0);
+    let has_play = has_play
+        || model
+            .rows
+            .iter()
+            .any(|row| row.cage.as_ref().is_some_and(|cage| cage.clearance > 0.0));
     let times = (0..model.rows.len()).map(|row| {
         let speed = model.orbit_speed(row, y0).abs();
         if has_play && has_loose_balls(model, y0, row) {
@@ -233,6 +238,11 @@ fn before(model: &Model, from: &Start, y0: Vec<f64>, seconds: f64) -> Result<Vec
     }
     for (j, ball) in model.balls.iter().enumerate() {
         y[angle(BodyId::ball(j))] = -turned.balls[ball.row];
+    }
+    for (row, turned) in turned.rows.iter().enumerate() {
+        if model.rows[row].cage.is_some() {
+            y[angle(model.layout().cage(row))] = model.scene.rows[row].start_angle - turned;
+        }
     }
     face(model, &mut y);
     Ok(y)

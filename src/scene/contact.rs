@@ -166,6 +166,11 @@ pub(super) struct FrictionNumbers {
 }
 
 impl Friction {
+    /// The slip speed below which it fades \[m/s\]; none without friction.
+    pub(crate) fn slip_speed(&self) -> Option<f64> {
+        self.numbers().map(|of| of.slip_speed)
+    }
+
     /// The numbers of the law; none without friction.
     pub(super) fn numbers(&self) -> Option<FrictionNumbers> {
         let (law, fields, slip_speed) = match *self {
@@ -203,46 +208,5 @@ impl Friction {
             fields,
             slip_speed,
         })
-    }
-}
-
-/// Springs that keep the centres of neighbouring balls of a row at their distance (model section 6).
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-#[non_exhaustive]
-pub struct Cage {
-    /// Stiffness k_c \[N/m\].
-    pub stiffness: f64,
-    /// Damping c_c, while engaged \[N s/m\].
-    #[serde(default)]
-    pub damping: f64,
-    /// Total play p \[m\]: free within ± p/2 of the nominal distance.
-    #[serde(default)]
-    pub play: f64,
-}
-
-impl Cage {
-    /// Springs of a stiffness \[N/m\], with damping \[N s/m\] and total play \[m\].
-    pub fn new(stiffness: f64, damping: f64, play: f64) -> Self {
-        Self {
-            stiffness,
-            damping,
-            play,
-        }
-    }
-
-    /// Numbers of the damping.
-    pub(super) fn numbers(&self) -> [BoundedNumber; 3] {
-        // Named one by one, so that the compiler asks about a new field.
-        let Self {
-            stiffness,
-            damping,
-            play,
-        } = *self;
-        [
-            BoundedNumber::within("stiffness", stiffness, 0.0..=1e15, "N/m"),
-            BoundedNumber::within("damping", damping, 0.0..=1e12, "N s/m"),
-            BoundedNumber::within("play", play, 0.0..=1.0, "m"),
-        ]
     }
 }

@@ -17,6 +17,7 @@ mod absent;
 mod antiderivative;
 mod approximations;
 mod bearing;
+mod cage;
 mod contact;
 mod damage;
 mod defaults;
@@ -58,7 +59,8 @@ use crate::base::memory;
 pub(crate) use antiderivative::Antiderivative;
 pub use approximations::Approximations;
 pub use bearing::{GothicArch, RaceProfile, Row, Waviness};
-pub use contact::{Cage, Contact, Friction, NormalLaw, Slices};
+pub use cage::{Cage, CageGuidance, CageLinks, CageRing};
+pub use contact::{Contact, Friction, NormalLaw, Slices};
 pub use damage::{Damage, RIM};
 pub use defect::Defect;
 pub(crate) use document::interpret;
@@ -120,7 +122,7 @@ pub struct Scene {
     /// How balls spin; absent: about the bearing's axis.
     #[serde(default, skip_serializing_if = "absent::none")]
     pub spin: Option<Spin>,
-    /// Cage; absent: the balls are not linked.
+    /// Cage, links between neighbouring balls or a ring with pockets; absent: nothing keeps the balls apart.
     #[serde(default)]
     pub cage: Option<Cage>,
     /// Drive of the inner ring.
@@ -226,6 +228,16 @@ impl Scene {
             tables.map(|(name, of)| (format!("table_forces.{name}"), of as &dyn RingForce));
         let coded = self.ring_forces.iter();
         tables.chain(coded.map(|(name, of)| (format!("ring_forces.{name}"), of)))
+    }
+
+    /// The links of the cage, if it has some.
+    pub(crate) fn cage_links(&self) -> Option<&CageLinks> {
+        self.cage.as_ref()?.links()
+    }
+
+    /// The cage, if it is a rigid ring.
+    pub(crate) fn cage_ring(&self) -> Option<&CageRing> {
+        self.cage.as_ref()?.as_ring()
     }
 
     /// Contact of a row's balls and races: its own, or that of the scene.

@@ -37,7 +37,9 @@ pub enum Probe {
         #[serde(default)]
         quantities: Option<Vec<ContactQuantity>>,
     },
-    /// Force of every cage link of a row, positive in tension, filtered: columns `<probe>.link0`, … \[N\].
+    /// The cage of a row, filtered: the force of every link, positive in tension, in columns `<probe>.link0`, … \[N\]; of a ring its angle,
+    /// which goes on from turn to turn, its speed and its centre, `<probe>.angle`, `.omega`, `.x`, `.y`, and the force of each pocket's wall
+    /// on its ball, positive on one that leads, `.pocket0.force`, …
     Cage {
         /// Row, from 0.
         #[serde(default)]

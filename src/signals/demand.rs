@@ -6,7 +6,7 @@ use super::filter::HALF;
 use crate::dynamics::contribution_names;
 use crate::inspect::{Energy, Lubrication, MOMENTS};
 use crate::model::{DOFS, RINGS};
-use crate::scene::{ContactQuantity, Probe, Scene, Slices};
+use crate::scene::{Cage, ContactQuantity, Probe, Scene, Slices};
 
 /// A column besides its values: its name twice, and what finds it \[bytes\]. An estimate, generous for names of some tens
 /// of letters.
@@ -61,6 +61,7 @@ impl Demand {
                 }
                 // Two balls have but one link.
                 Probe::Cage { row } => match (&scene.cage, scene.rows[*row].ball_count) {
+                    (Some(Cage::Ring { .. }), count) => 4 + count,
                     (None, _) | (_, 0 | 1) => 0,
                     (_, 2) => 1,
                     (_, count) => count,

@@ -27,8 +27,8 @@ pub struct RowKinematics {
     pub inner: f64,
     /// Rate of the outer ring.
     pub outer: f64,
-    /// Rate of the balls around the axis: FTF, that of a cage. The mean over all balls of the row: as many of them pass an unloaded
-    /// place of a race as a loaded one.
+    /// Rate of the balls around the axis: FTF, that of the cage. Of a cage that is a ring its own turns, from one on; else the mean over all
+    /// balls of the row: as many of them pass an unloaded place of a race as a loaded one.
     pub cage: f64,
     /// Rate of a ball about its own axis against the cage: BSF, or BSF/cos α of balls that spin about the bearing's axis only. Absent
     /// where all balls of the row have a defect that tumbles.
@@ -80,6 +80,8 @@ pub(crate) struct Orbits {
     /// Angles of the rings at the first and at the last look \[rad\].
     rings: [[f64; 2]; 2],
     balls: Vec<BallCourse>,
+    /// Angles of the cages that are rings at the first and at the last look \[rad\].
+    cages: Vec<[f64; 2]>,
 }
 
 #[derive(Clone, Copy, Default)]
@@ -133,8 +135,15 @@ impl Orbits {
             (ball.direction, ball.spin) = (direction, spin);
         }
         self.rings[1] = now;
+        let cages = (0..model.rows.len()).filter(|row| model.rows[*row].cage.is_some());
+        let cages = cages.map(|row| layout.motion(&self.y, layout.cage(row)).theta);
         if self.times.is_none() {
             self.rings[0] = now;
+            self.cages = cages.map(|angle| [angle; 2]).collect();
+        } else {
+            for (cage, now) in self.cages.iter_mut().zip(cages) {
+                cage[1] = now;
+            }
         }
         self.times = Some([first, t]);
         self.next = t + (APART / fastest).min(LONGEST);
@@ -170,7 +179,11 @@ impl Orbits {
                 row: at,
                 inner: rate(inner),
                 outer: rate(outer),
-                cage: mean(balls().map(|ball| ball.advance).sum(), of.ball_count),
+                cage: match self.cages.get(at).map(|[first, last]| last - first) {
+                    // Of less than a turn the balls tell more: each is somewhere in its pocket.
+                    Some(turned) if turned.abs() >= TAU => rate(turned),
+                    _ => mean(balls().map(|ball| ball.advance).sum(), of.ball_count),
+                },
                 spin: (seen.clone().count() > 0)
                     .then(|| mean(seen.clone().map(|ball| ball.turned).sum(), seen.count())),
                 rolling: rolling.as_ref().and_then(|all| Some(all[at]?.cage)),
@@ -187,6 +200,7 @@ impl Remembered for Orbits {
         self.times.pass(words);
         self.rings.pass(words);
         self.balls.pass(words);
+        self.cages.pass(words);
     }
 }
 

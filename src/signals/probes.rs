@@ -4,6 +4,7 @@ use super::Column;
 use super::filter::SampleKind;
 use crate::base::error::Result;
 use crate::dynamics::{Dynamics, contribution_names, contributions_with_films};
+use crate::forces::cage::ring::carrier;
 use crate::inspect::{self, Energy, Lubrication, MOMENTS};
 use crate::model::{BodyId, Dof, Model, Race};
 use crate::scene::{Component, ContactQuantity, Probe, RingName, Scene};
@@ -94,7 +95,17 @@ impl Probes {
                 self.contacts(model, name, contacts, quantities.as_deref())
             }
             Probe::Cage { row } => {
-                if model.scene.cage.is_some() {
+                if model.scene.cage_ring().is_some() {
+                    for (label, unit) in
+                        [("angle", "rad"), ("omega", "rad/s"), ("x", "m"), ("y", "m")]
+                    {
+                        self.column(format!("{name}.{label}"), unit, Some(SampleKind::Smooth));
+                    }
+                    for pocket in 0..model.rows[*row].count {
+                        let column = format!("{name}.pocket{pocket}.force");
+                        self.column(column, "N", Some(SampleKind::Smooth));
+                    }
+                } else if model.scene.cage.is_some() {
                     for link in 0..model.rows[*row].links().count() {
                         self.column(format!("{name}.link{link}"), "N", Some(SampleKind::Smooth));
                     }
@@ -259,7 +270,14 @@ impl ProbeReader {
                     }));
                 }
             }
-            Self::Cage { row } => values.extend(inspect::cage_forces(model, y, *row)),
+            Self::Cage { row } => {
+                if model.rows[*row].cage.is_some() {
+                    let turning = layout.motion(y, layout.cage(*row));
+                    let centre = layout.motion(y, carrier(model, *row)).centre;
+                    values.extend([turning.theta, turning.omega, centre.x, centre.y]);
+                }
+                values.extend(inspect::cage_forces(model, y, *row));
+            }
             Self::Energy => values.extend(
                 inspect::energy(model, y)
                     .entries()

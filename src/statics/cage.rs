@@ -10,7 +10,7 @@ use super::springs::CageSpring;
 use super::unknowns::Rings;
 use crate::contact::V2;
 use crate::model::{BodyId, Dof, RowModel};
-use crate::scene::Cage;
+use crate::scene::CageLinks;
 
 /// Newton iterations for the length of the links, at most; three do.
 const LENGTH_ITERATIONS: usize = 10;
@@ -111,7 +111,7 @@ impl Chain {
     }
 
     /// The tension at these radii: a ball that moves out lengthens all links.
-    fn stretched(&self, cage: &Cage, radii: &[f64]) -> f64 {
+    fn stretched(&self, cage: &CageLinks, radii: &[f64]) -> f64 {
         let count = self.balls.len() as f64;
         let moved = self.balls.iter().zip(radii);
         let more = moved.map(|(ball, radius)| (radius / ball.place.x - 1.0) / count);
@@ -121,7 +121,7 @@ impl Chain {
     }
 
     /// The tension under which the balls are where it needs them, to a precision, sought from another.
-    fn tension(&self, cage: &Cage, from: f64, precision: f64) -> f64 {
+    fn tension(&self, cage: &CageLinks, from: f64, precision: f64) -> f64 {
         let excess = |tension: f64| self.stretched(cage, &self.hang(tension)) - tension;
         // The higher, the further in the balls and the less stretched the links: regula falsi (Illinois) between one, and
         // as much as the links have where that acts on the balls.
@@ -182,7 +182,7 @@ impl Problem<'_> {
     /// Balls pressed outwards stretch the cage; left out, its tension would shake the bearing at the start.
     pub(super) fn engage(
         &mut self,
-        cage: &Cage,
+        cage: &CageLinks,
         rings: &Rings,
         places: &mut [Vector2<f64>],
         holds: &[Hold],

@@ -12,7 +12,7 @@ use crate::contact::V2;
 use crate::forces::gravity;
 use crate::inspect;
 use crate::model::{BodyId, Dof, Model, Race, RowModel};
-use crate::scene::Cage;
+use crate::scene::CageLinks;
 
 /// Share of the play's half by which the shortest links are shorter than without load. In a 6205 they have all of it as balls come into the
 /// load, and 0.66 in the middle.
@@ -33,7 +33,7 @@ pub(crate) enum Spacing {
 /// The potential energy is linear in the links' lengths, whose sum is given: those that lower the balls most are as long as they can be,
 /// the others as short, and one is in between.
 pub(super) fn longer_links(model: &Model, row: &RowModel, mean: f64) -> Option<Vec<f64>> {
-    let cage = model.scene.cage.as_ref()?;
+    let cage = model.scene.cage_links()?;
     let stretched = mean - row.cage_distance;
     let [shortest, longest] = [-CLOSE, 1.0].map(|side| side * cage.play / 2.0 - stretched);
     if shortest >= 0.0 || longest <= 0.0 {
@@ -65,7 +65,7 @@ pub(super) fn longer_links(model: &Model, row: &RowModel, mean: f64) -> Option<V
 /// Lets balls without load be where the time of a ball pass has them, and go round as much faster than the loaded ones as they are further
 /// apart.
 pub(super) fn advance(model: &Model, y: &mut [f64]) {
-    let Some(cage) = model.scene.cage.as_ref().filter(|cage| cage.play > 0.0) else {
+    let Some(cage) = model.scene.cage_links().filter(|cage| cage.play > 0.0) else {
         return;
     };
     for row in model.rows.iter().filter(|row| row.count > 2) {
@@ -93,7 +93,7 @@ struct Loose {
 
 impl Loose {
     /// The fallen balls; none where a row has no two balls of either kind that follow each other, or has loose ones in several places.
-    fn of(model: &Model, y: &[f64], (row, cage): (&RowModel, &Cage)) -> Option<Self> {
+    fn of(model: &Model, y: &[f64], (row, cage): (&RowModel, &CageLinks)) -> Option<Self> {
         let mut balls: Vec<usize> = row.balls().collect();
         if orbit(model, row) < 0.0 {
             balls.reverse();
@@ -128,7 +128,7 @@ impl Loose {
     ///
     /// When one of them comes into the load, the link behind it is as long as theirs; until the next one does, it becomes as long as those in
     /// the load.
-    fn way(&self, model: &Model, y: &[f64], (row, cage): (&RowModel, &Cage)) -> f64 {
+    fn way(&self, model: &Model, y: &[f64], (row, cage): (&RowModel, &CageLinks)) -> f64 {
         let [gap, pressed] = self.ahead.map(|j| deflection(model, y, j, Race::Inner));
         let share = pressed / (pressed - gap);
         let wanted = self.apart + share * (self.close - self.apart);
@@ -192,7 +192,7 @@ mod tests {
         let model = model(500.0);
         let row = &model.rows[0];
         let longer = longer_links(&model, row, row.cage_distance).unwrap();
-        let half = model.scene.cage.as_ref().unwrap().play / 2.0;
+        let half = model.scene.cage_links().unwrap().play / 2.0;
         assert!(longer.iter().sum::<f64>().abs() < 1e-18);
         let height = |longer: &[f64]| {
             let mut gone = 0.0;
@@ -225,7 +225,7 @@ mod tests {
         let model = model(500.0);
         let y = from_equilibrium(&model, Spacing::Fallen).unwrap();
         let row = &model.rows[0];
-        let cage = model.scene.cage.as_ref().unwrap();
+        let cage = model.scene.cage_links().unwrap();
         let (loose, half) = (Loose::of(&model, &y, (row, cage)).unwrap(), cage.play / 2.0);
         for (a, b) in row.links() {
             let longer = distance(&model, &y, [a, b]) - row.cage_distance;

@@ -397,7 +397,7 @@ fn solve_from(mut problem: Problem, mut rings: Rings) -> Result<Solved> {
     for _ in 0..ROUNDS {
         interrupt::check()?;
         let turned = problem.carry_round(&rings, &state.balls);
-        let left = match &model.scene.cage {
+        let left = match model.scene.cage_links() {
             Some(cage) => problem.engage(cage, &rings, &mut state.balls, &state.holds),
             None => 0.0,
         };
@@ -419,7 +419,7 @@ fn solve_from(mut problem: Problem, mut rings: Rings) -> Result<Solved> {
     let (mut state, more) = problem.balance(&mut rings, &state.balls, unbalanced, TOLERANCE)?;
     iterations += more;
     let mut residual = problem.residual(&rings, &state.balls)?;
-    if model.scene.cage.is_some() && residual.is_off() {
+    if model.scene.cage_links().is_some() && residual.is_off() {
         let mut places = state.balls.clone();
         for _ in 0..ROUNDS {
             problem.polish(&mut rings, &mut places)?;

@@ -6,6 +6,7 @@ use super::arms::{Arm, Push};
 use super::fallen::Spacing;
 use super::rolling::RaceControl;
 use super::springs::{CageSpring, RowSpring};
+use super::start;
 use super::unknowns::{self, OF_A_RING, OF_RINGS, RingStiffness, Rings};
 use crate::contact::{Tangent, V2, centrifugal};
 use crate::forces::{self, gravity, load, support};
@@ -348,6 +349,7 @@ impl<'m> Problem<'m> {
                 y[layout.at(BodyId::ball(j), dof)] = of;
             }
         }
+        start::seat_cages(self.model, &mut y);
         y
     }
 }

@@ -8,7 +8,7 @@ use crate::base::error::{Error, Result};
 use crate::base::interrupt;
 use crate::base::quantities;
 use crate::contact::Motion;
-use crate::forces::cage;
+use crate::forces::cage::links;
 use crate::model::{BodyId, DOFS, Race};
 
 /// Force left on a body, over the largest load, above which there is no equilibrium.
@@ -95,7 +95,7 @@ impl Problem<'_> {
     /// Pull of the cage on every ball outwards, link by link.
     pub(super) fn cage_pulls(&self, places: &[Vector2<f64>]) -> Vec<f64> {
         let mut pulls = vec![0.0; places.len()];
-        let Some(cage) = &self.model.scene.cage else {
+        let Some(cage) = self.model.scene.cage_links() else {
             return pulls;
         };
         let at = |j: usize| {
@@ -105,7 +105,7 @@ impl Problem<'_> {
         for row in &self.model.rows {
             for (j, k) in row.links() {
                 let (first, second) = (at(j), at(k));
-                let tension = cage::link(cage, row.cage_distance, &first, &second).force;
+                let tension = links::link(cage, row.cage_distance, &first, &second).force;
                 let along = (second.centre - first.centre).normalize() * tension;
                 pulls[j] += along.dot(&self.directions[j]);
                 pulls[k] -= along.dot(&self.directions[k]);

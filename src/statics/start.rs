@@ -2,7 +2,7 @@
 
 use crate::base::error::{Error, Result};
 use crate::contact::attitude_rates;
-use crate::model::{BodyId, Dof, Layout, Model, Race};
+use crate::model::{BodyId, Carried, Dof, Layout, Model, Race};
 use crate::statics::{self, RaceControl, Spacing, rolling};
 
 /// How far Euler parameters of a given state may be from length one: they are brought there. Those that are further off are a slip.
@@ -43,6 +43,7 @@ fn begin(model: &Model, start: &Start) -> Result<Vec<f64>> {
             tilt(model, &mut y);
             rolling::nominally(model, &mut y);
             hold(model, &mut y);
+            seat_cages(model, &mut y);
             face(model, &mut y);
             Ok(y)
         }
@@ -65,6 +66,7 @@ fn begin(model: &Model, start: &Start) -> Result<Vec<f64>> {
 pub(crate) fn from_equilibrium(model: &Model, spacing: Spacing) -> Result<Vec<f64>> {
     let mut y = statics::in_motion(model, RaceControl::Friction, spacing)?;
     hold(model, &mut y);
+    seat_cages(model, &mut y);
     face(model, &mut y);
     Ok(y)
 }
@@ -107,12 +109,36 @@ fn turn(layout: Layout, y: &mut [f64], ball: BodyId, attitude: [f64; 4]) {
     }
 }
 
+/// Lets the cages that are rings stand with each ball in the middle of its pocket, or lie on their lands, and turn with their balls in the
+/// mean.
+pub(crate) fn seat_cages(model: &Model, y: &mut [f64]) {
+    let layout = model.layout();
+    for (at, row) in model.rows.iter().enumerate() {
+        let Some(cage) = &row.cage else { continue };
+        let body = layout.cage(at);
+        let orbit = model.orbit_speed(at, y);
+        let mut place = model.bodies[body].nominal;
+        let carrier = match &cage.carried {
+            Carried::Held => None,
+            Carried::Land(land) => Some(land.race.ring()),
+            Carried::Balls | Carried::Spring(_) => Some(BodyId::OUTER),
+        };
+        if let Some(carrier) = carrier {
+            let centre = layout.motion(y, carrier).centre + cage.sag(model.scene.gravity);
+            (place[Dof::X], place[Dof::Y]) = (centre.x, centre.y);
+        }
+        let (places, speeds) = y.split_at_mut(layout.half());
+        *layout.of_mut(places, body) = place;
+        *layout.of_mut(speeds, body) = [0.0, 0.0, 0.0, orbit];
+    }
+}
+
 /// Stops balls where they are held.
 fn hold(model: &Model, y: &mut [f64]) {
     let layout = model.layout();
     let moving = layout
         .degrees()
-        .filter(|(body, _)| body.as_ball().is_some());
+        .filter(|(body, _)| layout.as_ball(*body).is_some());
     for (ball, dof) in moving {
         let held = match dof {
             Dof::TurnX | Dof::TurnY => Dof::Theta,

@@ -4,6 +4,7 @@
 mod common;
 
 mod balance;
+mod cage_ring;
 mod caps;
 mod coefficients;
 mod contact;

@@ -114,7 +114,7 @@ fn unbalanced(scene: &Scene) -> Result<f64, Error> {
     for ball in model
         .layout()
         .bodies()
-        .filter(|body| body.as_ball().is_some())
+        .filter(|body| model.layout().as_ball(*body).is_some())
     {
         let [x, y, _] = model.layout().centre(&y, ball);
         let outward = (of(ball, Dof::X) * x + of(ball, Dof::Y) * y) / x.hypot(y);

@@ -5,6 +5,7 @@ mod common;
 
 mod approximations;
 mod blocks;
+mod cage_ring;
 mod kernel;
 mod pieces;
 mod reduction;

@@ -87,7 +87,9 @@ fn pressed(model: &Model) -> Vec<f64> {
 fn own(layout: Layout, y: &[f64], alone: Layout, first: usize) -> Vec<f64> {
     let mut own = vec![0.0; alone.dim()];
     for (body, dof) in alone.degrees() {
-        let of = body.as_ball().map_or(body, |j| BodyId::ball(first + j));
+        let of = alone
+            .as_ball(body)
+            .map_or(body, |j| BodyId::ball(first + j));
         own[alone.at(body, dof)] = y[layout.at(of, dof)];
         own[alone.speed_at(body, dof)] = y[layout.speed_at(of, dof)];
     }
@@ -120,7 +122,7 @@ fn forces_are_those_of_the_rows_alone() {
                     }
                 }
                 for (body, sum) in layout.bodies().zip(sums) {
-                    let Some(j) = body.as_ball() else {
+                    let Some(j) = layout.as_ball(body) else {
                         for dof in Dof::ALL {
                             on_rings[body.index()][dof] += sum[dof];
                         }

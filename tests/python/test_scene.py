@@ -213,6 +213,30 @@ def scenes() -> list[s.Scene]:
         full.replace(
             {"drive": s.SpeedDrive(s.Sine(mean=9.0, amplitude=1.0, frequency=2.0, phase=0.0))}
         ),
+        full.replace(
+            {
+                "cage": s.CageRing(
+                    mass=2e-3,
+                    inertia=1e-6,
+                    eccentricity=1e-4,
+                    pocket_clearance=60e-6,
+                    stiffness=2e5,
+                    damping=20.0,
+                    damping_depth=1e-7,
+                    friction=0.03,
+                    slip_speed=0.02,
+                    pocket_errors=(1e-3,) * full.rows[0].ball_count,
+                    pocket_error=1e-4,
+                    seed=3,
+                    guided="outer",
+                    centring_stiffness=1e4,
+                    land_clearance=70e-6,
+                    land_radius=0.02,
+                    land_stiffness=2e6,
+                    land_friction=0.1,
+                )
+            }
+        ),
         full.replace({"drive": s.SpeedDrive(100.0), "contact.slices": s.AccurateSlices(1e-5)}),
         full.replace(
             {

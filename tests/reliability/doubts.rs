@@ -7,9 +7,9 @@ use crate::common;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use ballrace::scene::{
-    Cage, Component, Contact, ContactQuantity, Defect, Doubt, Drive, Friction, Material, Moment,
-    Mount, NormalLaw, Probe, Ring, RingName, Scene, Spin, Support, Surface, TableForce, Texture,
-    Unbalance, presets,
+    Cage, CageRing, Component, Contact, ContactQuantity, Defect, Doubt, Drive, Friction, Material,
+    Moment, Mount, NormalLaw, Probe, Ring, RingName, Scene, Spin, Support, Surface, TableForce,
+    Texture, Unbalance, presets,
 };
 use ballrace::{Equilibrium, Warning, equilibrium, explain, load_distribution};
 use common::{Noise, run, short};
@@ -344,6 +344,16 @@ const SLIPS: &[Slip] = &[
     }),
     ("cage.play", |s| {
         s.cage = Some(Cage::new(1e6, 20.0, 0.1));
+    }),
+    ("cage.ring.stiffness", |s| {
+        let mut ring = CageRing::default();
+        (ring.stiffness, ring.friction) = (Some(1e8), 0.0);
+        s.cage = Some(Cage::ring(ring));
+    }),
+    ("cage.ring.friction", |s| {
+        let mut ring = CageRing::default();
+        (ring.stiffness, ring.friction) = (Some(1e6), 0.2);
+        s.cage = Some(Cage::ring(ring));
     }),
     ("drive.speed", |s| {
         s.drive = Drive::Speed((180_000.0).into());

@@ -14,7 +14,7 @@ from __future__ import annotations
 from .._later import listed
 from .approximations import Approximations
 from .bearing import GothicArch, RaceProfile, Ring, RingName, Row, Waviness
-from .cage import Cage
+from .cage import Cage, CageGuidance, CageRing
 from .contact import AccurateSlices, Contact, FittedSlices, FixedSlices, Iso16281, NormalLaw, Slices
 from .defect import (
     AxialOffset,
@@ -62,7 +62,9 @@ __all__ = [
     "AxialOffset",
     "BaseOil",
     "Cage",
+    "CageGuidance",
     "CageProbe",
+    "CageRing",
     "Cap",
     "Component",
     "Contact",

@@ -99,7 +99,12 @@ class ContactsProbe(Variant, tag="contacts"):
 
 @dataclass(frozen=True, kw_only=True)
 class CageProbe(Variant, tag="cage"):
-    """Force of every cage link of a row, positive in tension: columns ``<probe>.link0``, … [N], filtered.
+    """The cage of a row, filtered.
+
+    Of links the force of each, positive in tension: columns ``<probe>.link0``, … [N]. Of a ring its angle, which
+    goes on from turn to turn, its speed and its centre, ``<probe>.angle`` [rad], ``.omega`` [rad/s], ``.x``,
+    ``.y`` [m], and the force of each pocket's wall on its ball, positive on one that leads,
+    ``<probe>.pocket0.force``, … [N].
 
     Attributes
     ----------

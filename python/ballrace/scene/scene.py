@@ -18,7 +18,7 @@ from .._io.toml import check_depth, loads
 from ..errors import SceneError
 from .approximations import Approximations
 from .bearing import Ring, Row
-from .cage import Cage
+from .cage import Cage, CageRing
 from .contact import Contact
 from .defect import Defect
 from .drive import Drive
@@ -71,7 +71,7 @@ class Scene(Part):
         How balls spin. ``"axial"``, or None: about the bearing's axis, at contacts with a ring that tilts about
         that ring's axis, one state for each ball. ``"free"``: about any axis, which follows from friction, three
         states for each ball. At a contact angle of 0 both are the same.
-    cage : Cage or None
+    cage : CageRing, Cage or None
         Cage; None: the balls are not linked.
     drive : Drive
         What turns the inner ring.
@@ -120,7 +120,7 @@ class Scene(Part):
     friction: Friction = "none"
     lubricant: Lubricant | None = field(default=None, metadata=LEFT_OUT)
     spin: Spin | None = field(default=None, metadata=LEFT_OUT)
-    cage: Cage | None = None
+    cage: CageRing | Cage | None = None
     drive: Drive
     outer_speed: TimeFunction | None = field(default=None, metadata=LEFT_OUT)
     gravity: tuple[float, float, float] = (0.0, -9.81, 0.0)

@@ -87,7 +87,7 @@ impl Planar {
             && ground
                 .springs
                 .iter()
-                .all(|spring| matches!(spring.body.kind(), BodyKind::Ring(_)));
+                .all(|spring| matches!(model.layout().kind(spring.body), BodyKind::Ring(_)));
         let are_all = forms.iter().map(|(row, _)| *row).eq(reduction.rows.clone());
         if is_timed || !is_plane || !are_all {
             return None;

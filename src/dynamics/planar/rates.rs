@@ -5,10 +5,10 @@
 
 use super::{Balls, Direction, Planar};
 use crate::contact::{AxiallyFixedBalls, AxiallyFixedRace, InPlane, Motion, Pair, V2};
-use crate::forces::cage::pull;
+use crate::forces::cage::links::pull;
 use crate::forces::support::resistance;
 use crate::model::{Model, Race};
-use crate::scene::Cage;
+use crate::scene::CageLinks;
 use crate::simd::{Simd, Vector, Wide};
 
 /// Finds the rates of a state; false where the general right-hand side must.
@@ -40,7 +40,7 @@ impl Wide for Rates<'_> {
         let mut on_rings = [[0.0; 2]; 2];
         for row in &mut planar.rows {
             let compiled = &model.rows[row.row];
-            if let Some(cage) = &model.scene.cage {
+            if let Some(cage) = model.scene.cage_links() {
                 row.link(simd, (cage, compiled.cage_distance), q, v);
             }
             let contacts = (&compiled.pairs, &rings);
@@ -104,7 +104,7 @@ impl Balls {
 
     /// The forces of the cage's links.
     #[inline(always)]
-    fn link<S: Simd>(&mut self, simd: S, cage: (&Cage, f64), q: &[f64], v: &[f64]) {
+    fn link<S: Simd>(&mut self, simd: S, cage: (&CageLinks, f64), q: &[f64], v: &[f64]) {
         let all = |x: f64| Vector::all(simd, x);
         let of = [self.of(0, q), self.of(1, q), self.of(0, v), self.of(1, v)];
         let last = self.count - 1;

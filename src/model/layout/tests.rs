@@ -43,9 +43,31 @@ fn tilts_stand_behind_all_bodies() {
 #[test]
 fn rings_stand_before_balls() {
     assert_eq!(BodyId::ball(0).index(), 2);
-    assert_eq!(BodyId::ball(5).as_ball(), Some(5));
+    let layout = Layout::of_balls(6);
+    assert_eq!(layout.as_ball(BodyId::ball(5)), Some(5));
     for race in Race::BOTH {
-        assert_eq!(race.ring().kind(), BodyKind::Ring(race));
-        assert_eq!((race.ring().as_ball(), race.other().other()), (None, race));
+        assert_eq!(layout.kind(race.ring()), BodyKind::Ring(race));
+        assert_eq!(
+            (layout.as_ball(race.ring()), race.other().other()),
+            (None, race)
+        );
+    }
+}
+
+/// Truth: the order of `Model::names`.
+#[test]
+fn cages_stand_behind_the_balls() {
+    let layout = Layout::of_balls(3).with_cages(2).with_turns(0..0);
+    assert_eq!(layout.half(), 4 * 7 + 2 * 3);
+    assert_eq!(layout.kind(BodyId::ball(2)), BodyKind::Ball(2));
+    for row in 0..2 {
+        let cage = layout.cage(row);
+        assert_eq!(cage.index(), 5 + row);
+        assert_eq!(layout.kind(cage), BodyKind::Cage(row));
+        assert_eq!(layout.as_ball(cage), None);
+        assert!(!layout.has(cage, Dof::TurnX) && layout.has(cage, Dof::Theta));
+    }
+    for (at, (body, dof)) in layout.degrees().enumerate() {
+        assert_eq!(layout.at(body, dof), at);
     }
 }

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::{Doubt, angle, length, phase};
 use crate::base::quantities::number;
 use crate::scene::contact::extreme_slip;
-use crate::scene::{Contact, Drive, Friction, Row, Scene, TimeFunction};
+use crate::scene::{CageRing, Contact, Drive, Friction, Row, Scene, TimeFunction};
 
 /// Speed times pitch diameter, n d_m \[mm/min\]: bearings of aircraft engines come near it, and one of 120 mm bore on a
 /// test rig reached 3.9 million (E. N. Bamberger, E. V. Zaretsky, H. Signer, NASA TN D-7870, 1975).
@@ -24,6 +24,11 @@ const GRAVITY: f64 = 1e3;
 /// Hunt–Crossley damping \[s/m\]: K. H. Hunt, F. R. E. Crossley, *J. Appl. Mech.* 42 (1975) 440, have 0.08 to 0.32 of steel,
 /// bronze and ivory.
 const DAMPING: f64 = 5.0;
+/// Stiffness of a steel ball on a race under usual loads over its diameter \[N/m²\]: 5.4·10⁷ N/m in a 6205.
+const CONTACT: f64 = 6.8e9;
+/// Centrifugal acceleration of a ball over that of gravity from which it is pressed on the outer race all the way round: with less it
+/// rattles in any cage.
+const PRESSED: f64 = 4.0;
 /// Unbalance \[kg m\]; that of a machine is balanced to some µm times its mass (ISO 21940-11).
 const UNBALANCE: f64 = 1.0;
 
@@ -40,9 +45,12 @@ pub(super) fn look(scene: &Scene, found: &mut Vec<Doubt>) {
             damping(&format!("rows[{i}].contact"), own, found);
         }
     }
-    if let Some(cage) = &scene.cage {
+    if let Some(cage) = scene.cage_links() {
         let most = 0.5 * scene.rows[0].ball_diameter;
         length("cage.play".to_owned(), cage.play, most, found);
+    }
+    if let Some(ring) = scene.cage_ring() {
+        pockets(scene, ring, found);
     }
     speed(scene, found);
     let gravity = scene.gravity.iter().map(|g| g * g).sum::<f64>().sqrt();
@@ -69,6 +77,49 @@ pub(super) fn look(scene: &Scene, found: &mut Vec<Doubt>) {
             found.push(Doubt::new(
                 format!("unbalances.{name}.moment"),
                 value,
+                usual,
+            ));
+        }
+    }
+}
+
+/// Pockets that are as stiff as contacts, and whose friction lifts balls off the outer race (model section 19.1).
+fn pockets(scene: &Scene, ring: &CageRing, found: &mut Vec<Doubt>) {
+    let [gx, gy, _] = scene.gravity;
+    let gravity = gx.hypot(gy);
+    let [outer, inner] = scene.peak_speeds();
+    for row in &scene.rows {
+        let (d, pitch) = (row.ball_diameter, row.pitch_diameter / 2.0);
+        let density = scene.ball_material_of(row).density;
+        let ball = row
+            .ball_mass
+            .unwrap_or(density * std::f64::consts::PI / 6.0 * d.powi(3));
+        let stiffness = ring.stiffness(d);
+        let turning = row.ball_count as f64 * pitch * pitch / ring.inertia(row);
+        let most = 2.0 * CONTACT * d / (1.0 + ball * turning);
+        if stiffness > most {
+            let usual = format!(
+                "balls and cage vibrate on it faster than balls on their races, which shortens the steps; {} N/m would be as fast",
+                number(most)
+            );
+            let value = format!("{} N/m", number(stiffness));
+            found.push(Doubt::new("cage.ring.stiffness", value, usual));
+        }
+        let [ftf, ..] = row.orders();
+        let thrown = (ftf * inner + (1.0 - ftf) * outer).powi(2) * pitch;
+        let fall = (4.0 * gravity * ring.pocket_clearance(d) * stiffness * ball).sqrt();
+        let held = 0.5 * ball * (thrown - gravity);
+        if thrown > PRESSED * gravity && ring.friction * fall > held {
+            let usual = format!(
+                "balls that fall through their pockets meet the wall with up to {} N, and friction of more than {} N lifts them off \
+                 the outer race: a healthy bearing rattles. {} would be the most",
+                number(fall),
+                number(held),
+                number(held / fall)
+            );
+            found.push(Doubt::new(
+                "cage.ring.friction",
+                number(ring.friction),
                 usual,
             ));
         }

@@ -1,6 +1,7 @@
 //! Validation of a scene; each error names the field.
 
 mod bearing;
+mod cage;
 mod check;
 mod contact;
 mod defect;
@@ -13,7 +14,7 @@ mod tilt;
 
 use super::{RingName, Row, SCHEMA, Scene, Solver};
 use crate::base::error::{Error, Result};
-use check::{entry_name, numbers, positive, within};
+use check::{entry_name, positive, within};
 
 impl Scene {
     /// Checks every field; [`crate::compile()`] does it for you.
@@ -67,7 +68,7 @@ impl Scene {
         contact::contact("contact", contact)?;
         contact::friction("friction", friction)?;
         if let Some(cage) = cage {
-            numbers("cage", cage.numbers())?;
+            cage::cage(self, cage)?;
         }
         load::drive(self)?;
         lubricant::lubricants(self)?;

@@ -185,7 +185,7 @@ impl Signals {
 
     /// Rows whose orbit speed differs from the prediction; where nothing drives the balls another warning says so.
     fn off_prediction(&self) -> impl Iterator<Item = Warning> {
-        let play = self.scene.cage.as_ref().map_or(0.0, |cage| cage.play);
+        let play = self.scene.cage_links().map_or(0.0, |cage| cage.play);
         let is_off = move |of: &RowKinematics| {
             let row = &self.scene.rows[of.row];
             let pitch = PI * row.pitch_diameter / row.ball_count as f64;

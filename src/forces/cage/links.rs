@@ -5,28 +5,28 @@
 //! F = k_c (ℓ − ℓ₀ ∓ p/2) + c_c dℓ/dt        energy k_c (ℓ − ℓ₀ ∓ p/2)²/2        power c_c (dℓ/dt)²
 //! ```
 
-use super::{Account, Damper, Force, ForceSums, Instant, State, Table, Use};
+use super::super::{Account, Damper, Force, ForceSums, Instant, State, Table, Use};
 use crate::contact::Motion;
 use crate::model::{BodyId, Dof, Model, RowModel};
-use crate::scene::Cage;
+use crate::scene;
 use crate::simd::{Simd, Vector, Wide};
 
 /// Forces of all links of the cage.
 #[derive(Debug)]
-pub(crate) struct CageLinks;
+pub(crate) struct LinkForces;
 
-impl Force for CageLinks {
+impl Force for LinkForces {
     fn name(&self) -> &'static str {
         "cage"
     }
 
     fn used(&self, model: &Model) -> Use {
-        Use::evaluated(model.scene.cage.is_some())
+        Use::evaluated(model.scene.cage_links().is_some())
     }
 
     #[inline]
     fn add(&self, model: &Model, at: &Instant<'_>, sums: &mut ForceSums<'_>) {
-        if let Some(cage) = &model.scene.cage {
+        if let Some(cage) = model.scene.cage_links() {
             for row in &model.rows[at.rows.clone()] {
                 model.instructions.run_wide(Links {
                     cage,
@@ -70,7 +70,7 @@ pub(crate) struct Link {
 
 /// The link between two balls, model section 6.
 #[inline]
-pub(crate) fn link(cage: &Cage, nominal: f64, first: &Motion, second: &Motion) -> Link {
+pub(crate) fn link(cage: &scene::CageLinks, nominal: f64, first: &Motion, second: &Motion) -> Link {
     let apart = second.centre - first.centre;
     let extension = apart.norm() - nominal;
     let half = cage.play / 2.0;
@@ -92,7 +92,7 @@ pub(crate) fn link(cage: &Cage, nominal: f64, first: &Motion, second: &Motion) -
 
 /// Links of a row: each from a ball to its neighbour, and the last one back to the first.
 struct Links<'a> {
-    cage: &'a Cage,
+    cage: &'a scene::CageLinks,
     row: &'a RowModel,
     state: &'a State,
     forces: &'a mut Table,
@@ -153,7 +153,7 @@ impl Wide for Links<'_> {
 #[allow(clippy::inline_always)]
 #[inline(always)]
 pub(crate) fn pull<S: Simd>(
-    (cage, nominal): (&Cage, f64),
+    (cage, nominal): (&scene::CageLinks, f64),
     [dx, dy, dvx, dvy]: [Vector<S>; 4],
 ) -> [Vector<S>; 2] {
     let all = |x: f64| dx.same(x);
@@ -177,7 +177,7 @@ pub(crate) fn pull<S: Simd>(
 /// The links of a row in a state; none without a cage.
 pub(crate) fn of_row(model: &Model, y: &[f64], row: &RowModel) -> Vec<Link> {
     let motion = |ball| model.layout().motion(y, BodyId::ball(ball));
-    let links = model.scene.cage.iter().flat_map(|cage| {
+    let links = model.scene.cage_links().into_iter().flat_map(|cage| {
         let of = move |(i, j)| link(cage, row.cage_distance, &motion(i), &motion(j));
         row.links().map(of)
     });
@@ -187,6 +187,6 @@ pub(crate) fn of_row(model: &Model, y: &[f64], row: &RowModel) -> Vec<Link> {
 /// Rate at which the cage damps a ball of a row \[1/s\]: by two links, at most 4 c_c/m.
 fn rate(model: &Model, row: usize) -> f64 {
     let ball = &model.bodies[model.rows[row].first_body()];
-    let cage = model.scene.cage.as_ref();
+    let cage = model.scene.cage_links();
     cage.map_or(0.0, |cage| 4.0 * cage.damping / ball.mass[Dof::X])
 }

@@ -1,0 +1,334 @@
+//! The cage: links between neighbouring balls, or a rigid ring with a pocket for each of them.
+
+use std::f64::consts::PI;
+
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
+
+use super::Row;
+use super::document::at_field;
+use super::numbers::{BoundedNumber, NumberRange};
+
+/// Density of the steel of a cage whose mass is not given \[kg/m³\].
+const STEEL: f64 = 7800.0;
+/// Its section over the ball diameter, along the radius and along the axis.
+const SECTION: [f64; 2] = [0.2, 0.9];
+/// Of the circle of a ball, the share that a pocket takes out of it: its bars and rims go round the ball.
+const CUT_OUT: f64 = 0.5;
+
+/// By how much of the usual clearance of its pockets its weight lowers a centred cage, and gravity there \[m/s²\].
+const SAG: f64 = 1.0 / 6.0;
+const STANDARD_GRAVITY: f64 = 9.81;
+
+/// What keeps the balls of a row apart.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
+#[non_exhaustive]
+pub enum Cage {
+    /// Springs between neighbours, the paper's.
+    Links(CageLinks),
+    /// A rigid body with pockets: `cage = { ring = { … } }`.
+    Ring {
+        /// The ring.
+        ring: Box<CageRing>,
+    },
+}
+
+impl Cage {
+    /// Links of a stiffness \[N/m\], with damping \[N s/m\] and total play \[m\].
+    pub fn new(stiffness: f64, damping: f64, play: f64) -> Self {
+        Self::Links(CageLinks {
+            stiffness,
+            damping,
+            play,
+        })
+    }
+
+    /// A rigid ring with pockets.
+    pub fn ring(ring: CageRing) -> Self {
+        Self::Ring {
+            ring: Box::new(ring),
+        }
+    }
+
+    /// Its links, if it has some.
+    pub fn links(&self) -> Option<&CageLinks> {
+        match self {
+            Self::Links(links) => Some(links),
+            Self::Ring { .. } => None,
+        }
+    }
+
+    /// The rigid ring, if it is one.
+    pub fn as_ring(&self) -> Option<&CageRing> {
+        match self {
+            Self::Links(_) => None,
+            Self::Ring { ring } => Some(ring),
+        }
+    }
+
+    /// Its numbers, each by its path in the cage.
+    pub(super) fn numbers(&self) -> Vec<BoundedNumber> {
+        match self {
+            Self::Links(links) => links.numbers().into(),
+            Self::Ring { ring } => ring.numbers(),
+        }
+    }
+}
+
+/// A cage as a document has it: the fields of links, or a ring.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct CageDocument {
+    stiffness: Option<f64>,
+    damping: Option<f64>,
+    play: Option<f64>,
+    ring: Option<Box<CageRing>>,
+}
+
+impl<'de> Deserialize<'de> for Cage {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let CageDocument {
+            stiffness,
+            damping,
+            play,
+            ring,
+        } = CageDocument::deserialize(deserializer)?;
+        let of_links = [
+            ("stiffness", stiffness),
+            ("damping", damping),
+            ("play", play),
+        ];
+        match (ring, stiffness) {
+            (None, Some(stiffness)) => Ok(Self::new(
+                stiffness,
+                damping.unwrap_or_default(),
+                play.unwrap_or_default(),
+            )),
+            (None, None) => Err(D::Error::missing_field("stiffness")),
+            (Some(ring), _) => match of_links.iter().find(|(_, value)| value.is_some()) {
+                None => Ok(Self::Ring { ring }),
+                Some((field, _)) => Err(at_field(
+                    field,
+                    "left out beside a ring, which has numbers of its own",
+                )),
+            },
+        }
+    }
+}
+
+/// Springs that keep the centres of neighbouring balls of a row at their distance (model section 6).
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct CageLinks {
+    /// Stiffness k_c \[N/m\].
+    pub stiffness: f64,
+    /// Damping c_c, while engaged \[N s/m\].
+    pub damping: f64,
+    /// Total play p \[m\]: free within ± p/2 of the nominal distance.
+    pub play: f64,
+}
+
+impl CageLinks {
+    /// Its numbers.
+    fn numbers(&self) -> [BoundedNumber; 3] {
+        // Named one by one, so that the compiler asks about a new field.
+        let Self {
+            stiffness,
+            damping,
+            play,
+        } = *self;
+        [
+            BoundedNumber::within("stiffness", stiffness, 0.0..=1e15, "N/m"),
+            BoundedNumber::within("damping", damping, 0.0..=1e12, "N s/m"),
+            BoundedNumber::within("play", play, 0.0..=1.0, "m"),
+        ]
+    }
+}
+
+/// What carries a cage that is a ring.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum CageGuidance {
+    /// Its centre is free, and a soft spring and a damper hold it at that of the outer ring.
+    #[default]
+    Centred,
+    /// Its centre is that of the outer ring; it has a moment of inertia and no mass. What balls do to the pockets strikes the ring.
+    Held,
+    /// Its centre is free, with weight, and a land of the outer ring carries it.
+    Outer,
+    /// The same on a land of the inner ring.
+    Inner,
+    /// Its centre is free, with weight, and the balls carry it in round pockets.
+    Balls,
+}
+
+/// A rigid ring around the axis with a pocket for each ball of a row; every row has one of its own.
+///
+/// ```
+/// use ballrace::scene::{Cage, CageRing, presets};
+/// let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
+/// scene.cage = Some(Cage::ring(CageRing::default()));
+/// let found = ballrace::start(&ballrace::compile(&scene).unwrap(), &ballrace::Start::Equilibrium);
+/// assert!(found.is_ok());
+/// ```
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+#[non_exhaustive]
+pub struct CageRing {
+    /// Mass \[kg\]; absent: of a steel ring of 0.2 D × 0.9 D around the pitch circle less its pockets, 8 g for a 6205.
+    pub mass: Option<f64>,
+    /// Moment of inertia about its axis \[kg m²\]; absent: the mass times the square of the pitch radius.
+    pub inertia: Option<f64>,
+    /// Distance of its centre of mass from its centre, towards its pocket 0 \[m\]; only of a cage whose centre is free.
+    pub eccentricity: f64,
+    /// Clearance c_p of a ball on either side of its pocket \[m\], half of the play; absent: D/160, 50 µm at D = 8 mm.
+    pub pocket_clearance: Option<f64>,
+    /// Stiffness k_p of a pocket's wall \[N/m\]; absent: 3.75·10⁷ N/m² D, 3·10⁵ N/m at D = 8 mm.
+    pub stiffness: Option<f64>,
+    /// Damping d_p of a pocket's wall \[N s/m\]; absent: √(k_p m_b), half of the critical one.
+    pub damping: Option<f64>,
+    /// Depth δ₀ over which that damping sets in \[m\].
+    pub damping_depth: f64,
+    /// Coefficient of friction μ_p of ball and pocket.
+    pub friction: f64,
+    /// Slip speed below which friction in pockets and on the land fades \[m/s\]; absent: that of the row's friction, or 0.01 m/s.
+    pub slip_speed: Option<f64>,
+    /// Errors ε of the pockets' angles \[rad\], one for each ball of a row; empty: none.
+    pub pocket_errors: Vec<f64>,
+    /// Standard deviation of further errors, drawn from the seed \[rad\].
+    pub pocket_error: f64,
+    /// What they are drawn from.
+    pub seed: u64,
+    /// What carries it.
+    pub guided: CageGuidance,
+    /// Stiffness of the spring that centres it \[N/m\], with half of the critical damping; absent: one on which its weight lowers it
+    /// by a sixth of the usual clearance of its pockets, 9.4·10³ N/m in a 6205.
+    pub centring_stiffness: Option<f64>,
+    /// Clearance c_g of the cage in its land, along any radius \[m\]; absent: c_p. With more the pockets carry the cage.
+    pub land_clearance: Option<f64>,
+    /// Radius of the land \[m\]; absent: that of the ring's shoulders, or 0.3 D beyond the pitch radius.
+    pub land_radius: Option<f64>,
+    /// Stiffness of the land \[N/m\]; its damping is half of the critical one.
+    pub land_stiffness: f64,
+    /// Coefficient of friction on the land.
+    pub land_friction: f64,
+}
+
+impl Default for CageRing {
+    fn default() -> Self {
+        Self {
+            mass: None,
+            inertia: None,
+            eccentricity: 0.0,
+            pocket_clearance: None,
+            stiffness: None,
+            damping: None,
+            damping_depth: 0.2e-6,
+            friction: 0.02,
+            slip_speed: None,
+            pocket_errors: Vec::new(),
+            pocket_error: 0.0,
+            seed: 0,
+            guided: CageGuidance::default(),
+            centring_stiffness: None,
+            land_clearance: None,
+            land_radius: None,
+            land_stiffness: 1e6,
+            land_friction: 0.05,
+        }
+    }
+}
+
+impl CageRing {
+    /// Clearance c_p in a pocket of a ball of a diameter \[m\].
+    pub fn pocket_clearance(&self, ball_diameter: f64) -> f64 {
+        self.pocket_clearance.unwrap_or(ball_diameter / 160.0)
+    }
+
+    /// Stiffness k_p of a pocket's wall of a ball of a diameter \[m\], in N/m.
+    pub fn stiffness(&self, ball_diameter: f64) -> f64 {
+        self.stiffness.unwrap_or(3.75e7 * ball_diameter)
+    }
+
+    /// Stiffness k_h of the spring that centres the cage of a row \[N/m\].
+    pub fn centring_stiffness(&self, row: &Row) -> f64 {
+        let sag = SAG * Self::default().pocket_clearance(row.ball_diameter);
+        self.centring_stiffness
+            .unwrap_or(self.mass(row) * STANDARD_GRAVITY / sag)
+    }
+
+    /// Mass of the cage of a row \[kg\].
+    pub fn mass(&self, row: &Row) -> f64 {
+        let d = row.ball_diameter;
+        let [thick, wide] = SECTION.map(|share| share * d);
+        let whole = PI * row.pitch_diameter * thick * wide;
+        let pocket = CUT_OUT * PI / 4.0 * d * d * thick;
+        self.mass
+            .unwrap_or(STEEL * (whole - row.ball_count as f64 * pocket))
+    }
+
+    /// Moment of inertia of the cage of a row about its axis \[kg m²\].
+    pub fn inertia(&self, row: &Row) -> f64 {
+        let radius = row.pitch_diameter / 2.0;
+        self.inertia.unwrap_or(self.mass(row) * radius * radius)
+    }
+
+    /// Its numbers that are given, each by its path in the cage.
+    fn numbers(&self) -> Vec<BoundedNumber> {
+        // Named one by one, so that the compiler asks about a new field.
+        let Self {
+            mass,
+            inertia,
+            eccentricity,
+            pocket_clearance,
+            stiffness,
+            damping,
+            damping_depth,
+            friction,
+            slip_speed,
+            pocket_errors: _,
+            pocket_error,
+            seed: _,
+            guided: _,
+            centring_stiffness,
+            land_clearance,
+            land_radius,
+            land_stiffness,
+            land_friction,
+        } = self;
+        let up_to = |field, value, most, unit| BoundedNumber {
+            field,
+            value,
+            range: NumberRange::UpTo(most),
+            unit,
+        };
+        let given = |field, value: &Option<f64>, most, unit| {
+            value.map(|value| up_to(field, value, most, unit))
+        };
+        let from_0 = |field, value: &Option<f64>, most, unit| {
+            value.map(|value| BoundedNumber::within(field, value, 0.0..=most, unit))
+        };
+        let optional = [
+            given("ring.mass", mass, 1e6, "kg"),
+            given("ring.inertia", inertia, 1e6, "kg m²"),
+            from_0("ring.pocket_clearance", pocket_clearance, 1.0, "m"),
+            from_0("ring.stiffness", stiffness, 1e15, "N/m"),
+            from_0("ring.damping", damping, 1e12, "N s/m"),
+            given("ring.slip_speed", slip_speed, 1e3, "m/s"),
+            given("ring.centring_stiffness", centring_stiffness, 1e15, "N/m"),
+            from_0("ring.land_clearance", land_clearance, 1.0, "m"),
+            given("ring.land_radius", land_radius, 100.0, "m"),
+        ];
+        let others = [
+            BoundedNumber::within("ring.eccentricity", *eccentricity, 0.0..=1.0, "m"),
+            up_to("ring.damping_depth", *damping_depth, 1.0, "m"),
+            BoundedNumber::within("ring.friction", *friction, 0.0..=10.0, ""),
+            BoundedNumber::within("ring.pocket_error", *pocket_error, 0.0..=0.1, "rad"),
+            BoundedNumber::within("ring.land_stiffness", *land_stiffness, 0.0..=1e15, "N/m"),
+            BoundedNumber::within("ring.land_friction", *land_friction, 0.0..=10.0, ""),
+        ];
+        optional.into_iter().flatten().chain(others).collect()
+    }
+}
