@@ -65,12 +65,13 @@ class CageRing(Variant, tag="ring"):
     seed : int
         What they are drawn from.
     guided : {"centred", "held", "outer", "inner", "balls"}
-        What carries it. ``"centred"``: a soft spring and a damper hold it at the outer ring's centre. ``"held"``: its centre is the outer ring's, which what balls do to the pockets strikes, and it has a
-        moment of inertia only. ``"outer"``, ``"inner"``: a land of that ring carries its weight. ``"balls"``: the
-        balls do, in round pockets.
+        What carries it. ``"centred"``: a soft spring and a damper hold it at the outer ring's centre. ``"held"``:
+        its centre is the outer ring's, which what balls do to the pockets strikes, and it has a moment of inertia
+        only. ``"outer"``, ``"inner"``: a land of that ring carries its weight. ``"balls"``: the balls do, in round
+        pockets.
     centring_stiffness : float or None
-        Stiffness of the spring that centres it [N/m], with half of the critical damping; None: one on which its weight
-        lowers it by a sixth of the usual clearance of its pockets, 9.4e3 N/m in a 6205.
+        Stiffness of the spring that centres it [N/m], with half of the critical damping; None: one on which its
+        weight lowers it by a sixth of the usual clearance of its pockets, 9.4e3 N/m in a 6205.
     land_clearance : float or None
         Clearance of the cage in its land, along any radius [m]; None: that of the pockets. With more the pockets
         carry the cage.
