@@ -9,7 +9,9 @@ use std::time::{Duration, Instant};
 
 use ballrace::compile;
 use ballrace::inspect;
-use ballrace::scene::{Drive, Friction, Method, Mount, Profile, Scene, TimeFunction, presets};
+use ballrace::scene::{
+    Cage, Drive, Friction, Method, Mount, Profile, Scene, TimeFunction, presets,
+};
 use ballrace::{Error, Race, Run, Signals, Start, simulate_with_progress, start};
 use common::{rms, run, short, soon_over_the_spall};
 
@@ -230,7 +232,8 @@ fn a_collapsed_step_names_what_caused_it() {
     one.rows[0].diameter_errors = vec![0.0; 13];
     one.rows[0].diameter_errors[0] = 30e-6;
     let mut cage = base.clone();
-    cage.cage.as_mut().unwrap().damping = 1e9;
+    let links = base.cage.as_ref().and_then(Cage::links).unwrap();
+    cage.cage = Some(Cage::new(links.stiffness, 1e9, links.play));
     let mut support = base.clone();
     support.outer_ring.support.x = Some(Mount::Spring {
         stiffness: 1e9,

@@ -155,7 +155,7 @@ mod tests {
     use super::*;
     use crate::dynamics::Dynamics;
     use crate::integrate::System;
-    use crate::scene::{Friction, NormalLaw, Profile, Scene, TimeFunction, presets};
+    use crate::scene::{Cage, Friction, NormalLaw, Profile, Scene, TimeFunction, presets};
     use crate::statics::compile;
     use crate::{Start, start};
 
@@ -184,7 +184,10 @@ mod tests {
 
     /// Scenes by name, and how many balls a register may hold at most.
     fn scenes() -> Vec<(&'static str, Scene, usize)> {
-        let play = |s: &mut Scene| s.cage.as_mut().unwrap().play = 2e-6;
+        let play = |s: &mut Scene| {
+            let links = s.cage.as_ref().and_then(Cage::links).unwrap();
+            s.cage = Some(Cage::new(links.stiffness, links.damping, 2e-6));
+        };
         let balls = |count: usize| {
             with(|s| {
                 s.rows[0].ball_count = count;
