@@ -124,8 +124,11 @@ fn a_ball_hits_an_edge_at_speed() {
             out.stats.acceleration_residual.unwrap()
         );
         assert!(error < 0.01, "{error}");
-        // One of the widths is less than its contact's, which warns; nothing else does.
-        let narrow = |warning: &str| warning.contains("1.3 times the width of the contacts");
+        // One of the widths is less than its contact's, and at speed the load is small; nothing else warns.
+        let narrow = |warning: &str| {
+            warning.contains("1.3 times the width of the contacts")
+                || (rpm > 1e4 && warning.contains("load of the most loaded ball"))
+        };
         assert!(
             out.warnings()
                 .iter()

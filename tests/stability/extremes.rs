@@ -61,8 +61,11 @@ fn from_no_speed_to_30_000_rpm() {
             rms(out.get("outer.ay").unwrap()),
             out.stats.nfev
         );
-        assert!(out.warnings().is_empty(), "{:?}", out.warnings());
+        // At 30 000 rpm 293 N are less than ten centrifugal forces, which is told; nothing else is.
+        let told: Vec<String> = out.warnings().iter().map(ToString::to_string).collect();
+        assert_eq!(told.len(), usize::from(rpm.abs() > 1e4), "{told:?}");
         if rpm.abs() > 1e4 {
+            assert!(told[0].contains("load of the most loaded ball"), "{told:?}");
             assert!((upper / centrifugal - 1.0).abs() < 0.05);
         }
         if rpm == 0.0 {

@@ -46,6 +46,21 @@ Balls that pass through the load zone one by one make tones, whose sum has a kur
 """
 
 
+_OVERTONES = 0.25
+"""Depth without the highest line below which vibration may only swell and fade as a sine does.
+
+Noise times 1 + m cos φ has a squared envelope with lines of 2 m and m²/2 over 1 + m²/2: whatever m, the second
+has a depth of at most 0.24. Twice the frequency of the mains lies where a race's rate may lie.
+"""
+
+_EXPLAINED = 0.08
+"""Share of a squared envelope's variance in lines of a part below which impacts come at other times than its rate.
+
+Of 20 impacts at random in a second, in simulated records whose lines chance has in less than 1 %, they hold up to
+0.053; lines of damaged races of all measured sets hold 0.108 and more.
+"""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Strength:
     """Strength of the vibration at a fault's rate.
@@ -59,8 +74,12 @@ class Strength:
     depth : float
         Largest depth of modulation in a band: root mean square of the squared envelope's lines over its mean.
         Impacts without noise have 1 and more, noise has almost 0.
+    overtones : float
+        Largest depth of modulation in a band without its highest line: impacts have many.
+    explained : float
+        Largest share of the variance of a band's squared envelope that the part's lines hold.
     band : tuple of two floats
-        That band [Hz].
+        Band of the largest depth [Hz].
     kurtosis : float
         Largest kurtosis of a band; 3 for Gaussian noise.
     """
@@ -68,6 +87,8 @@ class Strength:
     acceleration: float
     share: float
     depth: float
+    overtones: float
+    explained: float
     band: tuple[float, float]
     kurtosis: float
 
@@ -75,6 +96,16 @@ class Strength:
     def is_shallow(self) -> bool:
         """Whether lines may come from waves of a race in noise."""
         return self.depth < SHALLOW
+
+    @property
+    def is_sine(self) -> bool:
+        """Whether vibration may only swell and fade as a sine does, as by hum of the mains."""
+        return self.overtones < _OVERTONES
+
+    @property
+    def is_elsewhere(self) -> bool:
+        """Whether most impacts come at other times than the part's rate."""
+        return self.explained < _EXPLAINED
 
     @property
     def is_smooth(self) -> bool:
@@ -136,35 +167,45 @@ class Envelopes:
             self._lines[band] = line_spectrum(row, row.size // 2) / (0.25 * row.size * mean)
         return self._lines[band]
 
-    def depth(self, band: int, rate: float, taken: NDArray[np.float64] | None = None) -> float:
-        """Return the depth of modulation in a band at a rate [Hz], but for lines that are another part's [Hz]."""
+    def depths(
+        self, band: int, rate: float, taken: NDArray[np.float64] | None = None
+    ) -> tuple[float, float]:
+        """Return the depth of modulation in a band at a rate [Hz], and that without the highest line.
+
+        Lines that are another part's [Hz] do not count.
+        """
         lines = self.lines(band)[: int((_HARMONICS + 1) * rate * self.duration)]
         if taken is not None and taken.size:
             lines = lines.copy()
             for f in taken[(taken > 0.0) & (taken < lines.size / self.duration)]:
                 lines[reach_of(f, self.duration)] = 0.0
-        squares = 0.0
+        squares = []
         for k in range(1, _HARMONICS + 1):
             place = k * rate * self.duration
             at, reach = round(place), math.ceil(WIDTH * place)
-            squares += float(lines[at - reach : at + reach + 1].max(initial=0.0)) ** 2
-        return math.sqrt(0.5 * squares)
+            squares.append(float(lines[at - reach : at + reach + 1].max(initial=0.0)) ** 2)
+        return math.sqrt(0.5 * sum(squares)), math.sqrt(0.5 * (sum(squares) - max(squares)))
 
     def deepest(self, rate: float, taken: NDArray[np.float64] | None = None) -> float:
         """Return the largest depth of modulation in any band at a rate [Hz]."""
-        return max(self.depth(band, rate, taken) for band in range(len(self.bands)))
+        return max(self.depths(band, rate, taken)[0] for band in range(len(self.bands)))
 
 
 def strength_at(
     envelopes: Envelopes, rate: float, taken: NDArray[np.float64] | None = None
 ) -> Strength:
     """Return how strong a signal is at a rate [Hz], but for lines that are another part's [Hz]."""
-    depths = [envelopes.depth(band, rate, taken) for band in range(len(envelopes.bands))]
+    found = [envelopes.depths(band, rate, taken) for band in range(len(envelopes.bands))]
+    depths, overtones = zip(*found, strict=True)
+    # The variance of a squared envelope over its squared mean; that of noise is 1, and of a tone 0.
+    varying = [max(envelopes.kurtosis(band) / 1.5 - 1.0, 0.3) for band in range(len(found))]
     power = 0.5 * float(envelopes.rows[-1].mean()) * min(depths[-1], 1.0)
     return Strength(
         acceleration=math.sqrt(power),
         share=min(power / envelopes.variance, 1.0),
         depth=max(depths),
+        overtones=max(overtones),
+        explained=max(depth**2 / of for depth, of in zip(depths, varying, strict=True)),
         band=envelopes.bands[int(np.argmax(depths))],
         kurtosis=max(map(envelopes.kurtosis, range(len(envelopes.bands)))),
     )

@@ -41,6 +41,9 @@ UNLIKELY: dict[Part, float] = {"outer_race": 0.05, "inner_race": 0.1, "ball": 0.
 role.
 """
 
+_OF_BURSTS = 0.3
+"""Share of the false-alarm rate that bursts at the cage's rate may use: they are one question more than lines."""
+
 _CLEARED = 0.2
 """Likelihood ratio below which a part is not cleared."""
 
@@ -129,7 +132,7 @@ def decided(
     if named:
         parts = tuple(one.part for one in named)
         return Verdict(verdict="damaged", parts=parts, why=_lines_of(named[0]))
-    if bursts is not None and bursts.probability < false_alarm:
+    if bursts is not None and bursts.probability < _OF_BURSTS * false_alarm:
         return Verdict(verdict="damaged", parts=("ball",), why=_burst(bursts))
     doubted = [one for one in left if false_alarm <= one.probability < DOUBT * false_alarm]
     if size is not None and not own:
@@ -169,6 +172,10 @@ def _not_sure(one: Evidence, size: Size | None, is_run: bool) -> str | None:
     """Return what would decide whether lines that stand out are damage; None where they are."""
     if one.strength.is_shallow:
         return _shallow(one)
+    if one.strength.is_sine:
+        return _sine(one)
+    if one.strength.is_elsewhere:
+        return _elsewhere(one)
     if one.strength.is_smooth:
         return _smooth(one)
     if size is None or one.part == "ball":
@@ -211,6 +218,20 @@ def _shallow(one: Evidence) -> str:
     return (
         f"a record from when it was new, another load or place, or a trend: {_certain(one)}, but modulate the "
         f"vibration by {depth:.0f} % only (kurtosis {kurtosis:.1f}), as waves of a race or early damage do"
+    )
+
+
+def _sine(one: Evidence) -> str:
+    return (
+        f"another speed, or a record from when it was new: {_certain(one)}, but the vibration swells and fades as "
+        "a sine does, as by hum of the mains, not as by impacts"
+    )
+
+
+def _elsewhere(one: Evidence) -> str:
+    return (
+        f"a longer record: {_certain(one)}, but hold {100.0 * one.strength.explained:.1g} % of what the vibration "
+        "varies by: most impacts come at other times, as shocks from elsewhere do"
     )
 
 

@@ -66,7 +66,7 @@ def features_of(
         factor = comb.factors[int(np.argmax(found.max(axis=0)))]
         rate = comb.order * factor * shaft
         heights.append(float(found.max()))
-        depths.append(max(envelopes.depth(band, rate) for band in range(len(bands))))
+        depths.append(max(envelopes.depths(band, rate)[0] for band in range(len(bands))))
     each = range(len(bands))
     moments = [max(map(envelopes.kurtosis, each)), max(map(envelopes.crest_factor, each))]
     return np.array([*heights, *depths, *moments, *_spectrum(levels, shaft, orders)])
