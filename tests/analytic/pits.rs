@@ -245,7 +245,9 @@ fn a_light_bearing_runs_over_pits() {
         let found = apart(&turned_back(&out, 0.0), &turned_back(&fine, 0.0));
         println!("{on:?}: {found:.1e}");
         assert_eq!(out.stats.clamped_pulls, 0);
-        assert!(out.warnings().is_empty(), "{:?}", out.warnings());
+        // So light a load is doubted, and the axis that is held; of pits nothing is told.
+        let told: Vec<String> = out.warnings().iter().map(ToString::to_string).collect();
+        assert!(told.iter().all(|text| !text.contains("pit")), "{told:?}");
         assert!(found < 0.05, "{found:e}");
     }
 }
