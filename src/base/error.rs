@@ -26,6 +26,16 @@ pub enum Error {
         /// Why, and what to try.
         reason: String,
     },
+    /// A force by code of the caller ([`crate::scene::RingForce`]) gave what is no force, or panicked in a campaign.
+    #[error("{path} at t = {}: {reason}", reached(.time))]
+    Force {
+        /// Path of the force in the scene, such as `ring_forces.pull`.
+        path: String,
+        /// Time at which it was called \[s\].
+        time: f64,
+        /// What it gave, or the message of its panic.
+        reason: String,
+    },
     /// The integration could not go on.
     #[error(
         "integration stopped at t = {}, step {}, at {body}: {reason}",

@@ -12,6 +12,7 @@ use crate::features::{
     Feature, FeatureOptions, Recorded, check, feature_columns, features_of, with_load_probes,
     without_load_probes,
 };
+use crate::forces::blame;
 use crate::run::Run;
 use crate::run::simulate_with_progress;
 use crate::scene::Scene;
@@ -98,14 +99,12 @@ impl Case {
     }
 }
 
-/// A panic is a fault of this crate; of thousands of cases it may cost one.
+/// A panic is a fault of this crate, or of a force of the caller's; of thousands of cases it may cost one.
 fn guarded<T>(work: impl FnOnce() -> Result<T>) -> Result<T> {
+    blame::forget();
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| {
-        let text = panic.downcast_ref::<String>().cloned();
-        let message = text
-            .or_else(|| panic.downcast_ref::<&str>().map(ToString::to_string))
-            .unwrap_or_else(|| "without a message".to_owned());
-        Err(Error::Internal { message })
+        let message = blame::message(&*panic);
+        Err(blame::blamed(Error::Internal { message }))
     })
 }
 

@@ -4,6 +4,7 @@
 //! of its damping, its effect at rest, and the symmetries that it keeps. The right-hand side, contributions by origin, statics,
 //! energies, scales, reductions and explanations go through [`ALL`]: a force that is entered there is in all of them, but for the scales of a model, which are estimated before ([`crate::model::Scales`]). Forces of a user's own code are one entry ([`outside`]).
 
+pub(crate) mod blame;
 pub(crate) mod cage;
 pub(crate) mod drag;
 pub(crate) mod drive;

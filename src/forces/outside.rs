@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::{Account, Damper, Force, ForceSums, Instant, RingWrench, State, Use};
+use super::{Account, Damper, Force, ForceSums, Instant, RingWrench, State, Use, blame};
 use crate::model::{Dof, Model, Race};
 use crate::scene::{RingForce, RingMotion};
 
@@ -28,18 +28,18 @@ impl Force for Outside {
     }
 
     fn add(&self, model: &Model, at: &Instant<'_>, sums: &mut ForceSums<'_>) {
-        for (_, force) in model.scene.forces_of_motion() {
+        for (path, force) in model.scene.forces_of_motion() {
             let race = Race::from(force.ring());
             let motion = motion(at.state, race);
-            sums.add(race, &wrench(force, at.t, &motion));
+            sums.add(race, &wrench((&path, force), at.t, &motion));
         }
     }
 
     fn at_place(&self, model: &Model, race: Race, ring: &RingMotion) -> RingWrench {
         let mut sum = RingWrench::default();
         let each = model.scene.forces_of_motion();
-        for (_, force) in each.filter(|(_, force)| Race::from(force.ring()) == race) {
-            let found = wrench(force, 0.0, ring);
+        for (path, force) in each.filter(|(_, force)| Race::from(force.ring()) == race) {
+            let found = wrench((&path, force), 0.0, ring);
             sum.force += found.force;
             sum.moment += found.moment;
         }
@@ -109,9 +109,11 @@ fn motion(state: &State, race: Race) -> RingMotion {
     }
 }
 
-/// Wrench of a force at a time \[s\].
-fn wrench(force: &dyn RingForce, t: f64, motion: &RingMotion) -> RingWrench {
-    let [x, y, z, mx, my, mz] = force.wrench(t, motion);
+/// Wrench of a force, by its path in the scene, at a time \[s\].
+fn wrench((path, force): (&str, &dyn RingForce), t: f64, motion: &RingMotion) -> RingWrench {
+    let found = blame::called(path, t, || force.wrench(t, motion));
+    blame::judge(path, t, &found);
+    let [x, y, z, mx, my, mz] = found;
     RingWrench {
         force: Vector3::new(x, y, z),
         moment: Vector3::new(mx, my, mz),

@@ -15,6 +15,7 @@ use crate::base::clock;
 use crate::base::error::{Error, Result};
 use crate::base::words::{Remembered, Words};
 use crate::dynamics::Dynamics;
+use crate::forces::blame;
 use crate::inspect;
 use crate::integrate::{self, DenseStep, Observer, Options, StepStatistics};
 use crate::model::Model;
@@ -129,6 +130,7 @@ impl Trajectory {
             return Ok(());
         }
         let begun = clock::now();
+        blame::forget();
         let model = dynamics.model();
         let tolerance = tolerance(dynamics)?;
         let y0 = dynamics.compress(&self.first);
@@ -166,11 +168,17 @@ impl Trajectory {
             ..
         } = follower;
         dynamics.expand(self.time, &self.own, &mut self.last);
-        let solution = solved.map_err(|failure| broken(model, &self.last, zero, &failure))?;
+        let solution =
+            solved.map_err(|failure| blame::blamed(broken(model, &self.last, zero, &failure)))?;
         // Whoever was interrupted may go on.
         self.memory = memory;
         if let Some((step, why)) = halt {
-            return Err(why.error(model, &self.last, zero + self.time, step));
+            return Err(blame::blamed(why.error(
+                model,
+                &self.last,
+                zero + self.time,
+                step,
+            )));
         }
         if spent {
             return Err(self.steps.error(zero + self.time));
@@ -270,6 +278,8 @@ impl<'m> Observer<Dynamics<'m>> for Follower<'_, '_, '_> {
         if is_new {
             self.of.stats = *stats;
             self.judge(step, lost)?;
+            // What a force gave in steps that were rejected has passed.
+            blame::forget();
             self.spent = self.of.steps.spent(stats) && step.t1() < self.of.interval.to;
         }
         if self.spent || watched.is_break() {

@@ -10,13 +10,13 @@ use super::prepare::Prepared;
 use super::settle::Settled;
 use crate::base::error::{Error, Result};
 use crate::model::Placed;
-use crate::scene::{Scene, TimeFunction};
+use crate::scene::{RingForces, Scene, TimeFunction};
 use crate::signals::{Accuracy, Statistics};
 
 /// A [`Simulation`](crate::Simulation) at a time: what it needs to go on from there, bit by bit.
 ///
-/// As a document ([`Snapshot::to_json`]) it goes on in another process of the same version; forces by code of a program's own
-/// ([`Scene::ring_forces`]) cannot be read again.
+/// As a document ([`Snapshot::to_json`]) it goes on in another process of the same version. Of forces by code of a program's own
+/// ([`Scene::ring_forces`]) it has the names; [`Snapshot::from_json_with`] takes the code.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Snapshot {
@@ -63,12 +63,26 @@ impl Snapshot {
     /// Reads one from JSON.
     ///
     /// # Errors
-    /// [`Error::Scene`] where it is none, or of another version.
+    /// [`Error::Scene`] where it is none, of another version, or of a scene with [`Scene::ring_forces`].
     pub fn from_json(text: &str) -> Result<Self> {
+        Self::from_json_with(text, RingForces::default())
+    }
+
+    /// Reads one from JSON whose scene has forces by code of the program's own: they act again by their names.
+    ///
+    /// # Errors
+    /// As [`Self::from_json`]; [`Error::Scene`] also where the names are not those of the scene.
+    pub fn from_json_with(text: &str, forces: RingForces) -> Result<Self> {
         let refused = |reason: String| Error::scene("snapshot", "another document", reason);
-        let document: Value = serde_json::from_str(text).map_err(|e| refused(e.to_string()))?;
+        let mut document: Value = serde_json::from_str(text).map_err(|e| refused(e.to_string()))?;
         check(document["version"].as_str().unwrap_or("unknown"))?;
-        serde_json::from_value(document).map_err(|e| refused(e.to_string()))
+        let scene = document.get_mut("scene").and_then(Value::as_object_mut);
+        let named = scene.and_then(|scene| scene.remove("ring_forces"));
+        check_names(named.as_ref(), &forces)?;
+        let mut read: Self =
+            serde_json::from_value(document).map_err(|e| refused(e.to_string()))?;
+        read.scene.ring_forces = forces;
+        Ok(read)
     }
 
     /// JSON of the snapshot on one line.
@@ -107,6 +121,29 @@ impl Snapshot {
     pub(super) fn remembered(&self) -> &Remembrance {
         &self.remembered
     }
+}
+
+/// Refuses forces that are not those of the document.
+fn check_names(named: Option<&Value>, forces: &RingForces) -> Result<()> {
+    let of_scene = named.and_then(Value::as_array).into_iter().flatten();
+    let of_scene: Vec<&str> = of_scene.filter_map(Value::as_str).collect();
+    let given: Vec<&str> = forces.iter().map(|(name, _)| name).collect();
+    if of_scene == given {
+        return Ok(());
+    }
+    let list = |names: &[&str]| match names {
+        [] => "none".to_owned(),
+        _ => names.join(", "),
+    };
+    let allowed = format!(
+        "the forces of the snapshot's scene ({}), given to Snapshot::from_json_with",
+        list(&of_scene)
+    );
+    Err(Error::scene(
+        "snapshot.scene.ring_forces",
+        list(&given),
+        allowed,
+    ))
 }
 
 /// Refuses what another version has written, whose motion would not go on as it was.

@@ -44,6 +44,7 @@ use serde::Serialize;
 
 use crate::base::error::Result;
 use crate::base::interrupt;
+use crate::forces::blame;
 use crate::inspect::{self, MomentOnRing, RaceFilm};
 use crate::model::{self, Ball, BodyId, Dof, Model, Placed, Race};
 use crate::reduction::axial_places;
@@ -380,7 +381,11 @@ fn solve_with<'m>(problem: impl Fn() -> Problem<'m>) -> Result<Solved> {
 
 /// Solves with the balls at their nominal angles and nominal speeds; then with those at which they roll where they stand, lets the
 /// cage shift them and pull, and solves again.
-fn solve_from(mut problem: Problem, mut rings: Rings) -> Result<Solved> {
+fn solve_from(problem: Problem, rings: Rings) -> Result<Solved> {
+    blame::scope(|| solved_from(problem, rings))
+}
+
+fn solved_from(mut problem: Problem, mut rings: Rings) -> Result<Solved> {
     let model = problem.model;
     let seeds: Vec<_> = (0..model.balls.len())
         .map(|j| problem.seed(j, &rings))

@@ -1,11 +1,17 @@
 //! Analytic: a force on a ring by a table or by a program's own code is a force like any. A spring by either equals a support of the same
 //! stiffness in equilibria, runs, energies and reductions; a pull that grows with the displacement softens a mount by its slope.
 
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use ballrace::inspect::energy;
-use ballrace::scene::{Mount, RingForce, RingMotion, RingName, Scene, TableForce, presets};
-use ballrace::{Run, compile, equilibrium, explain, simulate};
+use ballrace::scene::{
+    Mount, RingForce, RingForces, RingMotion, RingName, Scene, TableForce, presets,
+};
+use ballrace::{
+    Case, Error, FeatureOptions, Run, Simulation, Snapshot, campaign, compile, equilibrium,
+    explain, simulate, stiffness,
+};
 
 const STIFFNESS: f64 = 3e7;
 const DAMPING: f64 = 300.0;
@@ -195,16 +201,149 @@ fn a_table_is_in_the_document_and_checked() {
     refused("direction", serde_json::json!([0.0, 0.0, 0.0]));
 }
 
-/// Reliability: a force that is no number ends in an error, not in signals.
+/// Pushes by 1 N until a time \[s\], then as told.
+#[derive(Debug)]
+struct Until {
+    time: f64,
+    after: fn() -> f64,
+    bound: f64,
+}
+
+impl RingForce for Until {
+    fn ring(&self) -> RingName {
+        RingName::Outer
+    }
+
+    fn wrench(&self, t: f64, _: &RingMotion) -> [f64; 6] {
+        let y = if t < self.time { 1.0 } else { (self.after)() };
+        [0.0, y, 0.0, 0.0, 0.0, 0.0]
+    }
+
+    fn damping(&self) -> f64 {
+        self.bound
+    }
+}
+
+fn faulty(time: f64, after: fn() -> f64, bound: f64) -> Scene {
+    let mut scene = mounted(spring(STIFFNESS, DAMPING));
+    scene.ring_forces.insert(
+        "good",
+        Arc::new(Until {
+            time: 1.0,
+            after: || 0.0,
+            bound: 0.0,
+        }),
+    );
+    scene
+        .ring_forces
+        .insert("seal", Arc::new(Until { time, after, bound }));
+    scene
+}
+
+fn short() -> Run {
+    Run {
+        duration: 2e-3,
+        settle: Some(0.0),
+        ..Run::default()
+    }
+}
+
+/// Reliability: a force that is no number is blamed by its name and time, at rest, in a run and between pieces; what comes after on the
+/// same thread is not.
 #[test]
-fn a_force_that_is_no_number_is_an_error() {
-    let mut scene = by_code(true);
-    let force = Linear {
-        stiffness: f64::NAN,
-        damping: 0.0,
-        plane: true,
+fn a_force_that_is_no_number_is_blamed() {
+    let blamed = |error: Error, since: f64| match error {
+        Error::Force { path, time, reason } => {
+            assert_eq!(path, "ring_forces.seal");
+            assert!(
+                time >= since && time < 2e-3 && reason.contains("[0.0, NaN, 0.0"),
+                "{time} {reason}"
+            );
+        }
+        other => panic!("{other}"),
     };
-    scene.ring_forces.insert("spring", Arc::new(force));
-    assert!(equilibrium(&scene).is_err());
-    assert!(simulate(&scene, &Run::default()).is_err());
+    let at_once = faulty(0.0, || f64::NAN, 0.0);
+    blamed(equilibrium(&at_once).unwrap_err(), 0.0);
+    blamed(stiffness(&at_once).unwrap_err(), 0.0);
+    blamed(simulate(&at_once, &short()).unwrap_err(), 0.0);
+    let late = faulty(1e-3, || f64::NAN, 0.0);
+    equilibrium(&late).unwrap();
+    blamed(simulate(&late, &short()).unwrap_err(), 1e-3);
+    let mut pieces = Simulation::begin(&late, &short()).unwrap();
+    pieces.advance(5e-4).unwrap();
+    blamed(pieces.advance(1e-3).unwrap_err(), 1e-3);
+    // The load of this one, nothing else.
+    let overloaded = presets::wheel_bearing(1e9);
+    assert!(matches!(
+        equilibrium(&overloaded),
+        Err(Error::Equilibrium { .. })
+    ));
+    let bound = faulty(1.0, || 0.0, f64::NAN);
+    let found = simulate(&bound, &short()).unwrap_err();
+    assert!(matches!(found, Error::Scene { path, .. } if path == "ring_forces.seal.damping"));
+}
+
+/// Reliability: the panic of a force costs its case of a campaign, under the force's name.
+#[test]
+fn a_force_that_panics_is_blamed_in_its_case() {
+    let scenes = [
+        faulty(1e-3, || panic!("no table"), 0.0),
+        faulty(1.0, || 0.0, 0.0),
+    ];
+    let cases = scenes.map(|scene| Case::new(scene, short()));
+    let options = FeatureOptions::default();
+    let outcomes = campaign(cases, 1, &options, &mut |_| ControlFlow::Continue(())).unwrap();
+    match outcomes[0].result.as_ref().unwrap_err() {
+        Error::Force { path, time, reason } => {
+            assert_eq!(
+                (path.as_str(), reason.as_str()),
+                ("ring_forces.seal", "it panicked: no table")
+            );
+            assert!(*time >= 1e-3);
+        }
+        other => panic!("{other}"),
+    }
+    assert!(outcomes[1].result.is_ok());
+}
+
+/// Limit: a snapshot's document goes on with the forces that it names, bit by bit, and is refused with others.
+#[test]
+fn a_snapshot_goes_on_with_its_forces() {
+    let scene = by_code(true);
+    let mut simulation = Simulation::begin(&scene, &short()).unwrap();
+    simulation.advance(1e-3).unwrap();
+    let text = simulation.snapshot().to_json();
+    let mut renamed = RingForces::default();
+    renamed.insert(
+        "seal",
+        Arc::new(Until {
+            time: 1.0,
+            after: || 0.0,
+            bound: 0.0,
+        }),
+    );
+    for refused in [
+        Snapshot::from_json(&text),
+        Snapshot::from_json_with(&text, renamed),
+    ] {
+        let found = refused.unwrap_err().to_string();
+        assert!(
+            found.starts_with("snapshot.scene.ring_forces") && found.contains("(spring)"),
+            "{found}"
+        );
+    }
+    let snapshot = Snapshot::from_json_with(&text, scene.ring_forces.clone()).unwrap();
+    let again = ended(Simulation::restore(&snapshot).unwrap());
+    assert_eq!(again, ended(simulation));
+}
+
+/// What is recorded of the outer ring until the run's end.
+fn ended(mut simulation: Simulation) -> Vec<f64> {
+    simulation.advance_to(2e-3).unwrap();
+    simulation
+        .finish()
+        .unwrap()
+        .get("outer.ay")
+        .unwrap()
+        .to_vec()
 }

@@ -14,7 +14,7 @@ mod tilt;
 
 use super::{RingName, Row, SCHEMA, Scene, Solver};
 use crate::base::error::{Error, Result};
-use check::{entry_name, positive, within};
+use check::{entry_name, finite, positive, within};
 
 impl Scene {
     /// Checks every field; [`crate::compile()`] does it for you.
@@ -42,7 +42,7 @@ impl Scene {
             moments: _,
             unbalances: _,
             table_forces: _,
-            ring_forces: _,
+            ring_forces,
             defects,
             probes,
             approximations,
@@ -78,6 +78,14 @@ impl Scene {
         load::loads(self)?;
         tilt::loads(self)?;
         self.check_tilted()?;
+        for (name, force) in ring_forces.iter() {
+            let path = format!("ring_forces.{name}");
+            finite(&format!("{path}.stiffness"), force.stiffness())?;
+            finite(&format!("{path}.damping"), force.damping())?;
+            for (i, peak) in force.peak().into_iter().enumerate() {
+                finite(&format!("{path}.peak[{i}]"), peak)?;
+            }
+        }
         for (name, defect) in defects {
             entry_name("defects", name)?;
             defect::defect(self, &format!("defects.{name}"), defect)?;
