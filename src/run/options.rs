@@ -74,7 +74,8 @@ impl Default for Run {
 }
 
 impl Run {
-    /// The longest duration \[s\]: that of a [`crate::Simulation`] without an end of its own.
+    /// The longest duration \[s\]: that of a [`crate::Simulation`] without an end of its own, which says how its last samples
+    /// differ from those of a run of that length.
     pub const OPEN: f64 = 1e6;
 
     /// Reads a run from JSON and checks it.

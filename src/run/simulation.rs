@@ -19,7 +19,9 @@ use crate::statics::place;
 /// A run that goes on in pieces.
 ///
 /// Its motion and its record are those of [`simulate`](crate::simulate()), bit by bit, whatever the pieces: a step of the integrator
-/// is not shortened where one ends; states there are read within the step.
+/// is not shortened where one ends; states there are read within the step. Of a run that ends by [`Simulation::finish`] before its
+/// duration, the last step is not shortened to that end either: samples that reach into it, where signals are filtered the last 14, differ
+/// from those of [`simulate`](crate::simulate()) by less than the integration error.
 ///
 /// ```
 /// use ballrace::scene::{RingName, presets};

@@ -157,6 +157,46 @@ fn pieces_of_all_lengths_give_the_same_bits() {
     }
 }
 
+/// A run without an end of its own is the run that ends there, but for what its last step gives: it is not shortened to the end, and
+/// filtered samples reach back to it. They differ by what the tolerance of steps allows.
+#[test]
+fn an_open_run_is_the_whole_run_until_its_last_step() {
+    const REACH: usize = 14;
+    for (name, scene) in scenes() {
+        let whole = simulate(&scene, &run()).unwrap();
+        let open = Run {
+            duration: Run::OPEN,
+            ..run()
+        };
+        let mut simulation = Simulation::begin(&scene, &open).unwrap();
+        simulation.advance_to(DURATION / 3.0).unwrap();
+        simulation.advance_to(DURATION).unwrap();
+        let open = simulation.finish().unwrap();
+        let last = whole.t.len() - REACH;
+        for (whole, open) in whole.columns.iter().zip(&open.columns) {
+            let is_off = |(a, b): (&f64, &f64)| a.to_bits() != b.to_bits();
+            let first = whole.values.iter().zip(&open.values).position(is_off);
+            assert_eq!(whole.values.len(), open.values.len());
+            assert!(
+                first.is_none_or(|first| first >= last),
+                "{name}, {}: {first:?}",
+                whole.name
+            );
+            let scale = whole
+                .values
+                .iter()
+                .fold(0.0, |most: f64, x| most.max(x.abs()));
+            for (a, b) in whole.values.iter().zip(&open.values) {
+                assert!(
+                    (a - b).abs() <= 1e-3 * scale,
+                    "{name}, {}: {a} {b}",
+                    whole.name
+                );
+            }
+        }
+    }
+}
+
 #[test]
 fn point_samples_are_the_same_bits_too() {
     let run = Run {
