@@ -25,6 +25,7 @@
 //! | What stiffness and damping does it have in a rotor? | [`dynamic_coefficients()`] |
 //! | What does a run integrate and leave out, and what does it cost? | [`explain()`] |
 //! | Which features has the record, and which of many records? | [`features()`], [`campaign()`] |
+//! | What does a measured record show, and where? | [`signal_features()`], [`squared_envelope_spectrum()`], [`fault_frequencies()`], [`run_fault_frequencies()`], [`scene::RowGeometry`] |
 //! | What are the equations, for an integrator of one's own? | [`compile()`], [`dynamics`], [`integrate`] |
 //! | What holds in a given state: loads, energies, films? | [`inspect`] |
 //! | How does a force of my own act on a ring? | [`scene::RingForce`], [`scene::TableForce`] |
@@ -65,7 +66,10 @@ pub use explain::{
     ContactKind, Cost, Explanation, LawExplanation, OilExplanation, PitExplanation,
     TextureExplanation, Variant, explain,
 };
-pub use features::{Feature, FeatureOptions, feature_columns, features, signal_features};
+pub use features::{
+    FaultFrequencies, Feature, FeatureOptions, fault_frequencies, feature_columns, features,
+    run_fault_frequencies, signal_features, squared_envelope, squared_envelope_spectrum,
+};
 pub use model::{Body, BodyId, BodyKind, DOFS, Degree, Dof, Layout, Model, Placed, Race, Scales};
 pub use reduction::{Obstacle, Omission, Reduction};
 pub use run::{Run, Simulation, Snapshot, simulate, simulate_into, simulate_with_progress};
@@ -90,8 +94,11 @@ pub mod bindings {
     pub use crate::base::pool::{Pool, STACK};
     pub use crate::features::loads::columns as load_columns;
     pub use crate::features::lubrication::columns as lubrication_columns;
-    pub use crate::features::transform::{amplitudes, hann_weighted, squared_envelope};
-    pub use crate::features::{Recorded, check as check_features, check_recorded, features_of};
+    pub use crate::features::transform::{amplitudes, hann_weighted};
+    pub use crate::features::{
+        Recorded, check as check_features, check_recorded, check_samples, features_of,
+        frequencies_at,
+    };
     pub use crate::model::layout_of;
     pub use crate::signals::kinematics::{RowRolling, rolling};
     pub use crate::statics::place;

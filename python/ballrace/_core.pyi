@@ -12,9 +12,11 @@ __all__ = [
     "axis_ratio",
     "campaign",
     "check_run",
+    "check_samples",
     "dynamic_coefficients",
     "equilibrium",
     "explain",
+    "fault_frequencies",
     "feature_columns",
     "hann_weighted",
     "instruction_sets",
@@ -28,6 +30,7 @@ __all__ = [
     "preset_deep_groove_6205",
     "preset_wheel_bearing",
     "rolling",
+    "rolling_frequencies",
     "run_features",
     "run_from_json",
     "scene_doubts",
@@ -187,6 +190,14 @@ def axis_ratio(
     conformity: float,
     contact_angle: float,
 ) -> float: ...
+def check_samples(name: str, x: _Array) -> None: ...
+def rolling_frequencies(
+    ball_count: float,
+    ball_diameter: float,
+    pitch_diameter: float,
+    contact_angle: float,
+    speeds: tuple[float, float],
+) -> str: ...
 def squared_envelope(x: _Array, fs: float, band: tuple[float, float] | None) -> _Array: ...
 def amplitudes(x: _Array, length: int) -> _Array: ...
 def hann_weighted(x: _Array) -> _Array: ...
@@ -199,6 +210,13 @@ def dynamic_coefficients(scene: str, positions: int) -> _DynamicCoefficients: ..
 def load_distribution(scene: str, positions: int) -> _LoadDistribution: ...
 def placed(scene: str) -> str: ...
 def axis_held(scene: str) -> tuple[float, float, bool] | None: ...
+def fault_frequencies(
+    scene: str,
+    row: int,
+    speeds: tuple[float, float],
+    race_control: str,
+    kinematics: str | None,
+) -> str: ...
 def rolling(scene: str, race_control: str) -> list[tuple[float, float, float] | None]: ...
 def named_oils() -> str: ...
 def oil(lubricant: str) -> str: ...

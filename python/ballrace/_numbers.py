@@ -13,7 +13,6 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
-    "LARGEST",
     "RATES",
     "counted",
     "finite",
@@ -23,10 +22,6 @@ __all__ = [
     "real_row",
     "sampling_rate",
 ]
-
-LARGEST = 1e60
-"""Magnitude of a signal: sums of its fourth powers, which a kurtosis takes, are still numbers."""
-
 
 RATES = 1e-9, 1e15
 """Sampling rates that are taken [Hz]."""

@@ -4,7 +4,7 @@ use super::shaft::{RingTurns, SHARE, Shaft};
 use super::spectrum::Spectrum;
 use super::transform::squared_envelope;
 use super::{Feature, named};
-use crate::scene::Row;
+use crate::scene::{Orders, Row};
 use crate::signals::kinematics::RowKinematics;
 
 /// A line is sought this far from its measured frequency: a part of the run has a mean of its own.
@@ -33,7 +33,12 @@ pub(super) struct FaultOrder {
 /// of places of a ball that pass a race: it meets both in a turn, so twice the ball's spin. They are what the row did, or, of a
 /// record without measured kinematics, those of pure rolling at the nominal contact angle.
 pub(super) fn faults(row: &Row, did: Option<&RowKinematics>, turns: RingTurns) -> [FaultOrder; 4] {
-    let [ftf, bpfo, bpfi, bsf] = row.orders();
+    let Orders {
+        ftf,
+        bpfo,
+        bpfi,
+        bsf,
+    } = row.geometry().orders();
     let measured = did.map(|did| did.orders(row.ball_count));
     let ([ftf, bpfo, bpfi], share) =
         measured.map_or(([ftf, bpfo, bpfi], SHARE), |(orders, _)| (orders, MEASURED));

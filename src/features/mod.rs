@@ -24,6 +24,8 @@
 //! present without a value, so that all cases of a table have the same columns.
 
 mod batches;
+mod envelope;
+mod frequencies;
 mod lines;
 pub(crate) mod loads;
 pub(crate) mod lubrication;
@@ -32,6 +34,7 @@ mod moments;
 mod noise;
 mod record;
 mod recorded;
+mod samples;
 mod shaft;
 mod spectrum;
 pub(crate) mod transform;
@@ -43,9 +46,12 @@ use crate::run::Run;
 use crate::scene::Scene;
 use crate::signals::{Signals, columns};
 
+pub use envelope::{squared_envelope, squared_envelope_spectrum};
+pub use frequencies::{FaultFrequencies, fault_frequencies, frequencies_at, run_fault_frequencies};
 pub(crate) use loads::{with_load_probes, without_load_probes};
 pub use record::Recorded;
 pub use recorded::{check_recorded, features_of, signal_features};
+pub use samples::check_samples;
 
 /// Options of features: what to compute them of.
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize)]

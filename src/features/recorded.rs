@@ -2,6 +2,7 @@
 
 use super::batches::Batches;
 use super::record::Recorded;
+use super::samples::check_samples;
 use super::shaft::{RingTurns, Shaft};
 use super::{Feature, FeatureOptions, check_record, lines, loads, lubrication, moments, named};
 use crate::base::error::{Error, Result};
@@ -64,7 +65,8 @@ pub fn features_of(
 /// speed of the shaft, the lines at their fault frequencies, standard errors, and how many turns and passes the signal has.
 ///
 /// `fs` is the sampling rate \[Hz\]; features are called by the name of the column they are of, `outer.ay.rms`, and without a
-/// name by their own, `rms`. Of the options `columns` and `contact_loads` do not count.
+/// name by their own, `rms`. Of the options `columns` and `contact_loads` do not count, of the scene all but its rows and speeds: it needs
+/// no masses, loads or mounts with which it could run.
 ///
 /// ```
 /// use ballrace::{FeatureOptions, signal_features};
@@ -76,8 +78,8 @@ pub fn features_of(
 /// ```
 ///
 /// # Errors
-/// [`crate::Error::Scene`] names an option that the signal does not give, a sampling rate that is none, or a field of the scene that
-/// is not usable.
+/// [`crate::Error::Scene`] names an option that the signal does not give, a sample that is not finite, a sampling rate that is none, or a field
+/// of the scene's rows or speeds that is not usable.
 pub fn signal_features(
     x: &[f64],
     fs: f64,
@@ -85,8 +87,9 @@ pub fn signal_features(
     scene: Option<&Scene>,
     options: &FeatureOptions,
 ) -> Result<Vec<Feature>> {
-    scene.map_or(Ok(()), Scene::validate)?;
+    scene.map_or(Ok(()), Scene::validate_kinematics)?;
     check_record(options, x.len() as f64 / fs, fs)?;
+    check_samples("x", x)?;
     let x = &x[first_sample(options.skip, fs, x.len())..];
     let of = Analysis::new(scene.map(|scene| (scene, &[][..])), fs, x.len(), options);
     let mut found = of.column(name, x);

@@ -8,12 +8,12 @@
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
-use super::errors::OrRaise;
+use super::errors::{OrRaise, to_json};
 use ballrace::RowKinematics;
 use ballrace::bindings::{self, Recorded, check_recorded, features_of};
 use ballrace::contact::hertz::Hertz;
-use ballrace::scene::{Material, kinematic_orders};
-use ballrace::{Error, Feature, FeatureOptions, Scene};
+use ballrace::scene::{Material, Orders, RowGeometry};
+use ballrace::{Error, FaultFrequencies, Feature, FeatureOptions, Scene};
 
 type Array<'py> = PyReadonlyArray1<'py, f64>;
 
@@ -28,7 +28,45 @@ pub(super) fn orders(
     pitch_diameter: f64,
     contact_angle: f64,
 ) -> (f64, f64, f64, f64) {
-    kinematic_orders(ball_count, ball_diameter, pitch_diameter, contact_angle).into()
+    let row = RowGeometry {
+        ball_count,
+        ball_diameter,
+        pitch_diameter,
+        contact_angle,
+    };
+    let Orders {
+        ftf,
+        bpfo,
+        bpfi,
+        bsf,
+        ..
+    } = row.orders();
+    (ftf, bpfo, bpfi, bsf)
+}
+
+/// Fault frequencies of balls that roll at a contact angle, at speeds of outer and inner ring \[Hz\], as JSON.
+#[pyfunction]
+pub(super) fn rolling_frequencies(
+    ball_count: f64,
+    ball_diameter: f64,
+    pitch_diameter: f64,
+    contact_angle: f64,
+    speeds: [f64; 2],
+) -> PyResult<String> {
+    let row = RowGeometry {
+        ball_count,
+        ball_diameter,
+        pitch_diameter,
+        contact_angle,
+    };
+    to_json(&FaultFrequencies::rolling(&row, speeds))
+}
+
+/// Refuses samples that are not finite, or too large.
+#[pyfunction]
+pub(super) fn check_samples(py: Python<'_>, name: &str, x: Array<'_>) -> PyResult<()> {
+    let x = copied(&x);
+    py.detach(|| bindings::check_samples(name, &x)).or_raise(py)
 }
 
 /// Axis of a contact's ellipse across the rolling direction over that along it, on a race of sense σ (+1 outer); materials do
@@ -61,10 +99,10 @@ pub(super) fn squared_envelope<'py>(
     x: Array<'py>,
     fs: f64,
     band: Option<[f64; 2]>,
-) -> Bound<'py, PyArray1<f64>> {
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
     let x = copied(&x);
-    let found = py.detach(|| bindings::squared_envelope(&x, fs, band));
-    found.into_pyarray(py)
+    let found = py.detach(|| ballrace::squared_envelope(&x, fs, band));
+    Ok(found.or_raise(py)?.into_pyarray(py))
 }
 
 /// Amplitudes under a Hann window, of a signal padded with zeros to a length.

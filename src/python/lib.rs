@@ -23,8 +23,8 @@ mod _core {
     use super::campaign::{available_threads, campaign, check_run, instruction_sets};
     #[pymodule_export]
     use super::features::{
-        amplitudes, axis_ratio, feature_columns, hann_weighted, orders, run_features,
-        signal_features, squared_envelope,
+        amplitudes, axis_ratio, check_samples, feature_columns, hann_weighted, orders,
+        rolling_frequencies, run_features, signal_features, squared_envelope,
     };
     #[pymodule_export]
     use super::oil::{named_oils, oil};
@@ -40,6 +40,7 @@ mod _core {
     use super::simulation::GoingRun;
     #[pymodule_export]
     use super::statics::{
-        axis_held, dynamic_coefficients, equilibrium, load_distribution, placed, rolling, stiffness,
+        axis_held, dynamic_coefficients, equilibrium, fault_frequencies, load_distribution, placed,
+        rolling, stiffness,
     };
 }

@@ -9,8 +9,8 @@ use super::errors::{OrRaise, to_json};
 use super::forces::{Passed, Raised};
 use ballrace::bindings::{self, RowRolling, place};
 use ballrace::{
-    BallEquilibrium, Equilibrium, EquivalentLoads, Error, RaceControl, Result, Scene,
-    equilibrium_under,
+    BallEquilibrium, Equilibrium, EquivalentLoads, Error, RaceControl, Result, RowKinematics,
+    Scene, equilibrium_under,
 };
 
 /// A column of a table of balls: its name, and its value of a ball.
@@ -145,6 +145,28 @@ pub(super) fn rolling(
     Ok(rows
         .map(|row| row.map(|of: RowRolling| (of.angle, of.cage, of.spin)))
         .collect())
+}
+
+/// Fault frequencies of a row of a scene under its load at speeds of outer and inner ring \[Hz\], with what a run measured of it, as JSON.
+#[pyfunction]
+pub(super) fn fault_frequencies(
+    py: Python<'_>,
+    scene: &str,
+    row: usize,
+    speeds: [f64; 2],
+    race_control: &str,
+    kinematics: Option<&str>,
+) -> PyResult<String> {
+    let control = control(race_control).or_raise(py)?;
+    let did: Option<RowKinematics> = kinematics
+        .map(serde_json::from_str)
+        .transpose()
+        .map_err(|e| Error::scene("kinematics", kinematics.unwrap_or_default(), e.to_string()))
+        .or_raise(py)?;
+    let found = solved(py, scene, move |scene| {
+        bindings::frequencies_at(scene, row, speeds, control, did.as_ref())
+    })?;
+    to_json(&found)
 }
 
 /// Loads at so many positions of the cage per pitch.

@@ -2,42 +2,126 @@
 
 use std::f64::consts::TAU;
 
+use serde::{Deserialize, Serialize};
+
 use super::{Row, Scene, Surface};
 
-/// Kinematic orders of Z balls of diameter D on the pitch diameter d_m at the contact angle α \[rad\], for pure rolling with
-/// γ = D cos α / d_m: FTF (1 − γ)/2, BPFO Z(1 − γ)/2, BPFI Z(1 + γ)/2, BSF d_m/2D (1 − γ²), per turn of the inner ring relative to
-/// the outer; FTF is that of the cage relative to the outer ring.
+/// What the kinematics of a row of balls depends on.
 ///
 /// ```
-/// // The bearing 6205 of the Case Western Reserve data; both diameters in the same unit.
-/// let [ftf, bpfo, bpfi, bsf] = ballrace::scene::kinematic_orders(9.0, 7.94, 39.04, 0.0);
-/// assert!((bpfo - 3.5848).abs() < 1e-4 && (bpfi - 5.4152).abs() < 1e-4);
-/// assert!((ftf - 0.3983).abs() < 1e-4 && (2.0 * bsf - 4.7135).abs() < 1e-4);
+/// use ballrace::scene::RowGeometry;
+/// // The bearing 6205 of the Case Western Reserve data.
+/// let row = RowGeometry { ball_count: 9.0, ball_diameter: 7.94e-3, pitch_diameter: 39.04e-3, contact_angle: 0.0 };
+/// let orders = row.orders();
+/// assert!((orders.bpfo - 3.5848).abs() < 1e-4 && (orders.bpfi - 5.4152).abs() < 1e-4);
+/// assert!((orders.ftf - 0.3983).abs() < 1e-4 && (2.0 * orders.bsf - 4.7135).abs() < 1e-4);
+/// let rates = orders.at(1797.0 / 60.0);
+/// assert!((rates.bpfo - 107.36).abs() < 0.01); // Hz
 /// ```
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct RowGeometry {
+    /// Number of balls.
+    pub ball_count: f64,
+    /// Ball diameter D \[m\].
+    pub ball_diameter: f64,
+    /// Pitch diameter d_m \[m\].
+    pub pitch_diameter: f64,
+    /// Contact angle α \[rad\].
+    pub contact_angle: f64,
+}
+
+/// Kinematic orders of a row: rates per turn of the inner ring against the outer; or, by [`Orders::at`], in hertz.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Orders {
+    /// Cage against the outer ring.
+    pub ftf: f64,
+    /// Balls that pass a place of the outer race.
+    pub bpfo: f64,
+    /// Balls that pass a place of the inner race.
+    pub bpfi: f64,
+    /// Turns of a ball in the cage; a place of it meets the races twice a turn.
+    pub bsf: f64,
+}
+
+impl RowGeometry {
+    /// Orders of Z balls for pure rolling, with γ = D cos α / d_m: FTF (1 − γ)/2, BPFO Z(1 − γ)/2, BPFI Z(1 + γ)/2,
+    /// BSF d_m/2D (1 − γ²).
+    pub fn orders(&self) -> Orders {
+        let gamma = self.ball_diameter * self.contact_angle.cos() / self.pitch_diameter;
+        Orders {
+            ftf: (1.0 - gamma) / 2.0,
+            bpfo: self.ball_count * (1.0 - gamma) / 2.0,
+            bpfi: self.ball_count * (1.0 + gamma) / 2.0,
+            bsf: self.pitch_diameter / (2.0 * self.ball_diameter) * (1.0 - gamma * gamma),
+        }
+    }
+}
+
+impl Orders {
+    /// The rates at a frequency of the inner ring against the outer, of either sign \[Hz\].
+    #[must_use]
+    pub fn at(&self, shaft: f64) -> Self {
+        let shaft = shaft.abs();
+        Self {
+            ftf: self.ftf * shaft,
+            bpfo: self.bpfo * shaft,
+            bpfi: self.bpfi * shaft,
+            bsf: self.bsf * shaft,
+        }
+    }
+}
+
+/// Orders FTF, BPFO, BPFI and BSF of a row.
+#[deprecated(
+    since = "0.4.0",
+    note = "is `RowGeometry::orders`, whose numbers have names; gone in 0.5"
+)]
 pub fn kinematic_orders(
     ball_count: f64,
     ball_diameter: f64,
     pitch_diameter: f64,
     contact_angle: f64,
 ) -> [f64; 4] {
-    let gamma = ball_diameter * contact_angle.cos() / pitch_diameter;
-    [
-        (1.0 - gamma) / 2.0,
-        ball_count * (1.0 - gamma) / 2.0,
-        ball_count * (1.0 + gamma) / 2.0,
-        pitch_diameter / (2.0 * ball_diameter) * (1.0 - gamma * gamma),
-    ]
+    let row = RowGeometry {
+        ball_count,
+        ball_diameter,
+        pitch_diameter,
+        contact_angle,
+    };
+    let Orders {
+        ftf,
+        bpfo,
+        bpfi,
+        bsf,
+    } = row.orders();
+    [ftf, bpfo, bpfi, bsf]
 }
 
 impl Row {
-    /// Kinematic orders FTF, BPFO, BPFI and BSF at the nominal contact angle, per turn of the inner ring relative to the outer.
+    /// What its kinematics depends on, at the nominal contact angle.
+    pub fn geometry(&self) -> RowGeometry {
+        RowGeometry {
+            ball_count: self.ball_count as f64,
+            ball_diameter: self.ball_diameter,
+            pitch_diameter: self.pitch_diameter,
+            contact_angle: self.contact_angle,
+        }
+    }
+
+    /// Orders FTF, BPFO, BPFI and BSF at the nominal contact angle.
+    #[deprecated(
+        since = "0.4.0",
+        note = "is `Row::geometry().orders()`, whose numbers have names; gone in 0.5"
+    )]
     pub fn orders(&self) -> [f64; 4] {
-        kinematic_orders(
-            self.ball_count as f64,
-            self.ball_diameter,
-            self.pitch_diameter,
-            self.contact_angle,
-        )
+        let Orders {
+            ftf,
+            bpfo,
+            bpfi,
+            bsf,
+        } = self.geometry().orders();
+        [ftf, bpfo, bpfi, bsf]
     }
 }
 
@@ -49,11 +133,11 @@ impl Scene {
         let shaft = self.highest_speed(duration) / TAU;
         let defects = self.defects.iter().filter(|(_, d)| d.damage.width() > 0.0);
         let lines = defects.map(|(name, defect)| {
-            let [_, bpfo, bpfi, bsf] = self.rows[defect.row].orders();
+            let orders = self.rows[defect.row].geometry().orders();
             let order = match defect.on {
-                Surface::OuterRace => bpfo,
-                Surface::InnerRace => bpfi,
-                Surface::Ball => 2.0 * bsf,
+                Surface::OuterRace => orders.bpfo,
+                Surface::InnerRace => orders.bpfi,
+                Surface::Ball => 2.0 * orders.bsf,
             };
             (name.as_str(), order * shaft)
         });

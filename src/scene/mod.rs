@@ -66,7 +66,9 @@ pub use defect::Defect;
 pub(crate) use document::interpret;
 pub(crate) use doubt::{AtSpeed, FilmJudged};
 pub use doubt::{Doubt, STATIC_PRESSURE};
+#[allow(deprecated)]
 pub use fault_lines::kinematic_orders;
+pub use fault_lines::{Orders, RowGeometry};
 pub use load::{Drive, Load, Moment, Unbalance};
 pub use lubricant::{Lubricant, OilLayer};
 pub use material::{Material, Materials};

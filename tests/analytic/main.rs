@@ -21,6 +21,7 @@ mod oil_contact;
 mod oil_run;
 mod pits;
 mod profiles;
+mod records;
 mod ring_force;
 mod start;
 mod texture;

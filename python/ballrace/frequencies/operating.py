@@ -9,17 +9,18 @@ races, the oil's drag and gyroscopic moments balance; of a run they are measured
 
 from __future__ import annotations
 
+import json
 import math
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
 from .. import _core, frequencies
-from .._numbers import counted, finite
+from .._numbers import counted, finite, real
 from ..bearings import Bearing, catalogue
 from ..errors import SceneError
-from ..scene import MotionProbe, Scene, SpeedDrive
+from ..scene import MotionProbe, Scene
 from ..scene.turning import constant_speeds
 from ..signals import Signals
 
@@ -149,18 +150,16 @@ def fault_frequencies(
     row = counted("row", row, 0, len(scene.rows) - 1)
     did = _measured(of, row) if isinstance(of, Signals) else None
     if did is not None and speed_rpm is None and outer_rpm is None:
-        speeds = did["outer"], did["inner"]
+        speeds = real(did["outer"]), real(did["inner"])
     else:
         speeds = scene_rates(scene, speed_rpm, outer_rpm)
     if not operating:
         return _rolling(scene.rows[row], scene.rows[row].contact_angle, speeds)
-    found = _under_load(scene, row, speeds, race_control)
-    if not isinstance(of, Signals):
-        return found
-    if did is not None:
-        return _as_measured(found, did, scene, row, speeds)
-    cage = cage_frequency(of, row)
-    return found if cage is None else _with_cage(found, cage, scene.rows[row].ball_count, speeds)
+    if isinstance(of, Signals) and did is None:
+        cage = cage_frequency(of, row)
+        at = {"row": row, "inner": speeds[1], "outer": speeds[0], "spin": None, "rolling": None}
+        did = None if cage is None else {**at, "cage": cage}
+    return _under_load(scene, row, speeds, race_control, did)
 
 
 def rates_at_a_turn(
@@ -191,18 +190,16 @@ def operating_angle(scene: Scene, row: int = 0) -> float:
 
 
 def _under_load(
-    scene: Scene, row: int, speeds: _Speeds, race_control: RaceControl
+    scene: Scene,
+    row: int,
+    speeds: _Speeds,
+    race_control: RaceControl,
+    did: Mapping[str, float | None] | None = None,
 ) -> FaultFrequencies:
-    """Return the frequencies of balls under load at the rings' speeds."""
-    outer, inner = speeds
-    turning = None if scene.outer_speed is None and outer == 0.0 else 2.0 * math.pi * outer
-    driven = replace(scene, drive=SpeedDrive(2.0 * math.pi * inner), outer_speed=turning)
-    found = _core.rolling(driven._document(), race_control)[row]
-    if found is None:
-        return _rolling(scene.rows[row], scene.rows[row].contact_angle, speeds)
-    angle, cage, spin = found
-    own = spin if scene.spin == "free" else spin * math.cos(angle)
-    return _rates(cage, own, scene.rows[row].ball_count, speeds, angle)
+    """Return the frequencies of balls under load at the rings' speeds, with what a run measured of them."""
+    kinematics = None if did is None else json.dumps(dict(did))
+    found = _core.fault_frequencies(scene._document(), row, speeds, race_control, kinematics)
+    return FaultFrequencies(**json.loads(found))
 
 
 def cage_frequency(out: Signals, row: int = 0) -> float | None:
@@ -261,60 +258,13 @@ def spin_of(scene: Scene, rates: FaultFrequencies, row: int = 0) -> tuple[float,
 
 
 def _rolling(of: Bearing | Row, angle: float, speeds: _Speeds) -> FaultFrequencies:
-    outer, inner = speeds
-    orders = frequencies.orders(of.ball_count, of.ball_diameter, of.pitch_diameter, angle)
-    shaft = inner - outer
-    return _rates(outer + orders.ftf * shaft, orders.bsf * shaft, of.ball_count, speeds, angle)
+    row = of.ball_count, of.ball_diameter, of.pitch_diameter, angle
+    return FaultFrequencies(**json.loads(_core.rolling_frequencies(*row, speeds)))
 
 
-def _rates(
-    cage: float, spin: float, balls: float, speeds: _Speeds, angle: float
-) -> FaultFrequencies:
-    """Return the rates of a cage and balls with signs, as they turn in space and in the cage [Hz].
-
-    f_c = f_o + ½ (1 − γ)(f_i − f_o), f_BPFO = Z |f_c − f_o|, f_BPFI = Z |f_i − f_c| where balls roll (Harris &
-    Kotzalas, Essential Concepts of Bearing Technology, both rings turning).
-    """
-    outer, inner = speeds
-    return FaultFrequencies(
-        shaft=abs(inner - outer),
-        ftf=abs(cage),
-        bpfo=balls * abs(cage - outer),
-        bpfi=balls * abs(inner - cage),
-        bsf=abs(spin),
-        contact_angle=angle,
-        inner=abs(inner),
-        outer=abs(outer),
-    )
-
-
-def _measured(out: Signals, row: int) -> Mapping[str, float] | None:
+def _measured(out: Signals, row: int) -> Mapping[str, float | None] | None:
     """Return the mean speeds of a row that a run measured [Hz]."""
     return next((did for did in out.provenance.get("kinematics", ()) if did["row"] == row), None)
-
-
-def _as_measured(
-    rolling: FaultFrequencies, did: Mapping[str, float], scene: Scene, row: int, speeds: _Speeds
-) -> FaultFrequencies:
-    """Return the frequencies of a run for some speeds; BSF of balls that spin about z only is that of rolling."""
-    outer, inner = speeds
-    scale = (inner - outer) / (did["inner"] - did["outer"])
-    found = _with_cage(
-        rolling, outer + scale * (did["cage"] - did["outer"]), scene.rows[row].ball_count, speeds
-    )
-    spin = did["spin"] if scene.spin == "free" else None
-    return found if spin is None else replace(found, bsf=abs(scale) * spin)
-
-
-def _with_cage(
-    rolling: FaultFrequencies, cage: float, balls: int, speeds: _Speeds
-) -> FaultFrequencies:
-    """Return the frequencies with a measured cage; the spin of the balls stays that of rolling."""
-    outer, inner = speeds
-    found = _rates(cage, rolling.bsf, balls, speeds, rolling.contact_angle)
-    # Seen from the outer ring, over what it would be by rolling; both go the way of the inner ring.
-    advance = balls * (cage - outer) / math.copysign(rolling.bpfo, inner - outer)
-    return replace(found, slip=1.0 - advance)
 
 
 def ring_rates(inner_rpm: float, outer_rpm: float) -> _Speeds:

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from .._numbers import LARGEST, real, real_row
+from .. import _core
+from .._numbers import real, real_row
 from ..errors import SceneError
 from ..scene import MotionProbe
 from ..scene.turning import constant_speeds
@@ -82,12 +83,9 @@ def of_array(
         raise SceneError(
             "direction", repr(direction), "None, or an array of shape (n, 3) of three axes"
         )
-    if signal.ndim != 1 or signal.size < 2 or not np.isfinite(signal).all():
-        raise SceneError(
-            "x", f"an array of shape {signal.shape}", "finite numbers, shape (n,) or (n, 3)"
-        )
-    if np.abs(signal).max() > LARGEST:
-        raise SceneError("x", f"up to {np.abs(signal).max():g}", f"magnitudes up to {LARGEST:g}")
+    if signal.ndim != 1 or signal.size < 2:
+        raise SceneError("x", f"an array of shape {signal.shape}", "numbers, shape (n,) or (n, 3)")
+    _core.check_samples("x", signal)
     t = np.arange(signal.size) / fs
     angle = _angle(shaft, t)
     return Source(x=signal.copy(), t=t, fs=float(fs), angle=angle, against=angle)

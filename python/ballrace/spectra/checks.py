@@ -6,13 +6,13 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, TypeAlias
 
-import numpy as np
-
-from .._numbers import LARGEST, counted, real, real_row, sampling_rate
+from .. import _core
+from .._numbers import counted, real, real_row, sampling_rate
 from ..channel import channel_of
 from ..errors import SceneError
 
 if TYPE_CHECKING:
+    import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
     from ..channel import Recorded
@@ -48,13 +48,7 @@ def checked_signal(x: ArrayLike, fs: float, name: str = "x") -> NDArray[np.float
         raise SceneError(
             name, f"an array of shape {signal.shape}", "an array of shape (n,), n at least 8"
         )
-    wrong = np.flatnonzero(~np.isfinite(signal))
-    if wrong.size:
-        found = f"{signal[wrong[0]]} in sample {wrong[0]}"
-        more = f", and {wrong.size - 1} more like it" if wrong.size > 1 else ""
-        raise SceneError(name, found + more, "finite everywhere")
-    if np.abs(signal).max() > LARGEST:
-        raise SceneError(name, f"up to {np.abs(signal).max():g}", f"magnitudes up to {LARGEST:g}")
+    _core.check_samples(name, signal)
     sampling_rate(fs)
     return signal
 

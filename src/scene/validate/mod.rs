@@ -98,6 +98,17 @@ impl Scene {
         self::solver(solver)
     }
 
+    /// Checks what fault frequencies and lines depend on, its rows and speeds.
+    pub(crate) fn validate_kinematics(&self) -> Result<()> {
+        if self.rows.is_empty() {
+            return Err(Error::scene("rows", 0, "1 to 16 rows"));
+        }
+        for (i, row) in self.rows.iter().enumerate() {
+            bearing::row(&format!("rows[{i}]"), row)?;
+        }
+        load::drive(self)
+    }
+
     pub(super) fn row_index(&self, path: &str, row: usize) -> Result<&Row> {
         self.rows.get(row).ok_or_else(|| {
             Error::scene(
