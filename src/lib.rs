@@ -28,10 +28,11 @@
 //! | What does a measured record show, and where? | [`signal_features()`], [`squared_envelope_spectrum()`], [`fault_frequencies()`], [`run_fault_frequencies()`], [`scene::RowGeometry`] |
 //! | What are the equations, for an integrator of one's own? | [`compile()`], [`dynamics`], [`integrate`] |
 //! | What holds in a given state: loads, energies, films? | [`inspect`] |
+//! | Which bearing is a 6205? | `scene::catalogue`, by the feature of that name |
 //! | How does a force of my own act on a ring? | [`scene::RingForce`], [`scene::TableForce`] |
 //!
-//! Bad input is refused by one [`Error`] that names the field, the value and what is allowed. The guide (`docs/index.md`) has the model
-//! and its limits; its page `docs/architecture.md` is the map for contributors.
+//! Bad input is refused by one [`Error`] that names the field, the value and what is allowed; its variants say whether a scene, a record, a
+//! snapshot or a force of the caller's is at fault. The page `docs/model.md` of this package has the model, its equations and their sources.
 //!
 //! # Units and frames
 //!

@@ -9,6 +9,7 @@ __all__ = [
     "Simulation",
     "amplitudes",
     "available_threads",
+    "axis_held",
     "axis_ratio",
     "campaign",
     "check_run",

@@ -38,8 +38,8 @@ class Simulation:
 
     Its record is that of :func:`ballrace.simulate`, bit by bit, whatever the pieces: the end of a piece does not
     shorten a step of the integrator; states there are interpolated within the step. Ended by :meth:`finish` before
-    its duration, all but its last 14 samples are, which differ by less than the integration error. Between pieces its
-    state, contacts and forces can be read, and loads, speeds, clearances and defects changed.
+    its duration, all but its last 14 samples are, which differ by less than the integration error. Between pieces
+    its state, contacts and forces can be read, and loads, speeds, clearances and defects changed.
 
     Parameters
     ----------

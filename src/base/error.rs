@@ -20,6 +20,26 @@ pub enum Error {
         /// Values that are allowed there.
         allowed: String,
     },
+    /// A record is not usable: a sample that is no number, or too large.
+    #[error("{path} = {value}: {allowed}")]
+    Record {
+        /// The record's name as an argument.
+        path: String,
+        /// What was found, and where.
+        value: String,
+        /// Samples that are allowed.
+        allowed: String,
+    },
+    /// A snapshot is not usable: no document of one, of another version or run, or with other forces.
+    #[error("{path} = {value}: {allowed}")]
+    Snapshot {
+        /// Dotted path in the snapshot's document.
+        path: String,
+        /// What was found there.
+        value: String,
+        /// What is allowed there.
+        allowed: String,
+    },
     /// The static solve found no stable equilibrium.
     #[error("no equilibrium: {reason}")]
     Equilibrium {

@@ -307,7 +307,7 @@ pub(super) struct ElementState<T> {
     pub oil: FilmEffect<T>,
 }
 
-/// The force of an element (model sections 4 and 5).
+/// The force of an element (`docs/model.md`, *Normal force* and *Friction*).
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ElementForce<T> {
     /// Force on the ring along n_e, t_e and z \[N\]; the ball gets the opposite.

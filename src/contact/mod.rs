@@ -1,7 +1,7 @@
 //! Laws of one ball on one race, without indices and without the state of a run.
 //!
-//! `profile` has the races and the zone where a ball touches one (model sections 2 and 3), `laws` the forces of an element of
-//! the zone (sections 4 and 5), `quadrature` where the elements lie (section 10), `kernel` combines these:
+//! `profile` has the races and the zone where a ball touches one (`docs/model.md`, *Geometry of a row* and *Slices*), `laws` the forces of an element of
+//! the zone (sections 4 and 5), `quadrature` where the elements lie, `kernel` combines these:
 //! the force of an element, and the elements of a whole contact; `frames` has the ball in the frame of its ring, `spatial`
 //! the wrench of a contact on its ball, `slip` the slip along a zone, from which `quadrature` computes the weights of
 //! friction. The kernel's callers:
@@ -14,8 +14,8 @@
 //!
 //! What is public beside the laws is hidden from the documentation: it is for the crate's own tests, and changes without notice.
 //!
-//! `damage` has the kinds of damage, one file each, the elements that a slice meets where a surface is absent (section 7), what a
-//! contact loses to holes smaller than it (section 15), and what makes these forces conservative.
+//! `damage` has the kinds of damage, one file each, the elements that a slice meets where a surface is absent, what a
+//! contact loses to holes smaller than it, and what makes these forces conservative.
 
 mod batch;
 mod closed_form;

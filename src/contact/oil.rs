@@ -1,4 +1,4 @@
-//! The effect of an oil film on a whole contact, and rolling resistance, which acts in addition to its nodes (model section 12).
+//! The effect of an oil film on a whole contact, and rolling resistance, which acts in addition to its nodes (`docs/model.md`, *Film*).
 
 // Into loops that are compiled for the instructions at hand.
 #![allow(clippy::inline_always)]

@@ -69,7 +69,7 @@ pub struct FeatureOptions {
 }
 
 /// A number with a name.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Feature {
     /// Name, as in the table above.

@@ -78,8 +78,8 @@ pub fn features_of(
 /// ```
 ///
 /// # Errors
-/// [`crate::Error::Scene`] names an option that the signal does not give, a sample that is not finite, a sampling rate that is none, or a field
-/// of the scene's rows or speeds that is not usable.
+/// [`crate::Error::Scene`] names an option that the signal does not give, a sampling rate that is none, or a field
+/// of the scene's rows or speeds that is not usable; [`crate::Error::Record`] a sample that is not finite.
 pub fn signal_features(
     x: &[f64],
     fs: f64,

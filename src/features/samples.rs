@@ -9,7 +9,7 @@ const LARGEST: f64 = 1e60;
 /// Refuses samples that are not finite, of which a single one would spoil every line and moment, or too large.
 ///
 /// # Errors
-/// [`Error::Scene`] with the path that is given, and the first of the samples.
+/// [`Error::Record`] with the path that is given, and the first of the samples.
 pub fn check_samples(path: &str, x: &[f64]) -> Result<()> {
     let mut wrong = x.iter().enumerate().filter(|(_, x)| !x.is_finite());
     if let Some((at, first)) = wrong.next() {
@@ -23,13 +23,21 @@ pub fn check_samples(path: &str, x: &[f64]) -> Result<()> {
             more => format!(", and {more} more like it"),
         };
         let found = format!("{first} in sample {at}{more}");
-        return Err(Error::scene(path, found, "finite everywhere"));
+        return Err(refused(path, found, "finite everywhere".to_owned()));
     }
     let largest = x.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
     if largest > LARGEST {
         let found = format!("up to {}", quantities::given(largest));
         let allowed = format!("magnitudes up to {}", quantities::given(LARGEST));
-        return Err(Error::scene(path, found, allowed));
+        return Err(refused(path, found, allowed));
     }
     Ok(())
+}
+
+fn refused(path: &str, value: String, allowed: String) -> Error {
+    Error::Record {
+        path: path.to_owned(),
+        value,
+        allowed,
+    }
 }

@@ -1,12 +1,12 @@
 //! A contact in a state: load, angle, zone, slip, and the forces of its slices.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::contact::{ContactForce, Pair, Sink, V2};
 use crate::model::{Model, Race};
 
 /// A contact in a few numbers.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct ContactSummary {
     /// Magnitude of the normal force, elastic and damping \[N\].
@@ -22,7 +22,7 @@ pub struct ContactSummary {
 }
 
 /// The force of one slice.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct SliceForce {
     /// Place along the ball, from its centre \[m\].

@@ -1,6 +1,6 @@
 //! Energies and dissipated powers of a state.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::powers::ContactPowers;
 use crate::contact::{ContactForce, OilForce, Sink};
@@ -8,7 +8,7 @@ use crate::forces::{self, Account};
 use crate::model::{Dof, Model, Race};
 
 /// Energies \[J\] and dissipated powers \[W\]. Loads, drive and given motions do work on top of these.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Energy {
     /// Kinetic energy of all bodies that move.

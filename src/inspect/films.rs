@@ -1,12 +1,12 @@
 //! The films of a scene's oil, at their reference load and speed.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::model::{Model, Race};
 use crate::scene::{Doubt, FilmJudged, RingName};
 
 /// The film between a row's balls and one race, at its reference load and speed; with a steady drive that of a whole run.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct RaceFilm {
     /// Row, from 0.

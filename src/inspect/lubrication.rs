@@ -1,6 +1,6 @@
 //! Films and losses of a row's oil in a state.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::powers::ContactPowers;
 use crate::contact::film::FilmNow;
@@ -9,7 +9,7 @@ use crate::forces;
 use crate::model::{Dof, Model, Race};
 
 /// Films and losses of a row: `[outer, inner]` race.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Lubrication {
     /// Central films h \[m\]; not a number without an oil that does something.

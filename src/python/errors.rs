@@ -14,6 +14,16 @@ pub(super) fn record(error: &Error) -> Value {
             path,
             value,
             allowed,
+        }
+        | Error::Record {
+            path,
+            value,
+            allowed,
+        }
+        | Error::Snapshot {
+            path,
+            value,
+            allowed,
         } => ("SceneError", json!([path, value, allowed])),
         Error::Equilibrium { .. } => ("EquilibriumError", json!([message])),
         Error::Integration {

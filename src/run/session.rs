@@ -9,7 +9,7 @@ use super::prepare::{Prepared, Simulate, check_memory, compile_with, prepare};
 use super::provenance::{Done, provenance};
 use super::selftest;
 use super::settings::{options, threads};
-use super::snapshot::Remembrance;
+use super::snapshot::{Remembrance, refused_at};
 use super::watch::Progress;
 use crate::base::error::{Error, Result};
 use crate::base::words::{Unfit, Words};
@@ -70,8 +70,13 @@ impl<'s> Session<'s> {
         let options = options(&model);
         let y = vec![0.0; model.dim()];
         let mut trajectory = Trajectory::new(&model, y, whole(run), options.max_step);
-        let unfit =
-            |Unfit| Error::scene("snapshot", "words of another run", "what a run has given");
+        let unfit = |Unfit| {
+            refused_at(
+                "snapshot",
+                "words of another run",
+                "what a run has given".to_owned(),
+            )
+        };
         Words::load(&remembered.trajectory, &mut trajectory).map_err(unfit)?;
         if trajectory.first().len() != model.dim() {
             return Err(unfit(Unfit));

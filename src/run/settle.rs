@@ -1,4 +1,4 @@
-//! The decay of a start's transient before t = 0 (model section 8).
+//! The decay of a start's transient before t = 0 (`docs/model.md`, *How a run begins, and how it goes on*).
 //!
 //! An equilibrium does not include friction, and places unloaded balls only as `statics::fallen` estimates: in a fast 6205 the outer
 //! ring's vibration is steady from three quarters of a turn of the cage on. So a run begins a little earlier, with loads and drive as they

@@ -1,6 +1,7 @@
 //! A run: scene → model → start → settle → integrate → signals.
 
 use std::ops::ControlFlow;
+use std::sync::Mutex;
 
 use super::Run;
 use super::budget;
@@ -107,7 +108,7 @@ fn unlimited(
     sink: Option<BlockSink<'_>>,
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Signals> {
-    let keep = sink.map_or(Keep::All, Keep::Left);
+    let keep = sink.map_or(Keep::All, |sink| Keep::Left(Mutex::new(sink)));
     let session = Session::begin(scene, run, keep, simulate_with_progress, progress)?;
     let settled = session.settled();
     let whole = settled + run.duration;

@@ -106,7 +106,7 @@ impl Simulation {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Scene`] where it is not what a run has given.
+    /// [`Error::Snapshot`] where it is not what a run has given.
     pub fn restore(snapshot: &Snapshot) -> Result<Self> {
         let (run, prepared) = (snapshot.run(), snapshot.prepared());
         run.validate()?;

@@ -63,7 +63,7 @@ impl Snapshot {
     /// Reads one from JSON.
     ///
     /// # Errors
-    /// [`Error::Scene`] where it is none, of another version, or of a scene with [`Scene::ring_forces`].
+    /// [`Error::Snapshot`] where it is none, of another version, or of a scene with [`Scene::ring_forces`].
     pub fn from_json(text: &str) -> Result<Self> {
         Self::from_json_with(text, RingForces::default())
     }
@@ -71,9 +71,9 @@ impl Snapshot {
     /// Reads one from JSON whose scene has forces by code of the program's own: they act again by their names.
     ///
     /// # Errors
-    /// As [`Self::from_json`]; [`Error::Scene`] also where the names are not those of the scene.
+    /// As [`Self::from_json`]; [`Error::Snapshot`] also where the names are not those of the scene.
     pub fn from_json_with(text: &str, forces: RingForces) -> Result<Self> {
-        let refused = |reason: String| Error::scene("snapshot", "another document", reason);
+        let refused = |reason: String| refused_at("snapshot", "another document", reason);
         let mut document: Value = serde_json::from_str(text).map_err(|e| refused(e.to_string()))?;
         check(document["version"].as_str().unwrap_or("unknown"))?;
         let scene = document.get_mut("scene").and_then(Value::as_object_mut);
@@ -153,5 +153,13 @@ fn check(version: &str) -> Result<()> {
         return Ok(());
     }
     let allowed = format!("{here}, the version that restores it");
-    Err(Error::scene("snapshot.version", version, allowed))
+    Err(refused_at("snapshot.version", version, allowed))
+}
+
+pub(super) fn refused_at(path: &str, value: &str, allowed: String) -> Error {
+    Error::Snapshot {
+        path: path.to_owned(),
+        value: value.to_owned(),
+        allowed,
+    }
 }

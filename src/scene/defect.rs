@@ -7,7 +7,7 @@ use super::document::at_field;
 use super::surface::{AxialOffset, Surface};
 use super::width::Width;
 
-/// A defect of one body (model section 7). It turns with its body.
+/// A defect of one body (`docs/model.md`, *Defects*). It turns with its body.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Defect {
@@ -26,7 +26,15 @@ pub struct Defect {
 }
 
 impl Defect {
-    /// A damage of row 0 where contacts run, of a ball on ball 0: its surface and angle \[rad\].
+    /// A damage of row 0 where contacts run, of a ball on ball 0: its surface and angle \[rad\]. Its sizes have names, which no other
+    /// constructor here has.
+    ///
+    /// ```
+    /// use ballrace::scene::{Damage, Defect, Surface};
+    /// let spall = Damage::Patch { length: 2e-3, width: 1e-3.into(), edge_radius: 0.3e-3, floor: None };
+    /// let spall = Defect::of(spall, Surface::InnerRace, 0.0);
+    /// assert_eq!(spall, Defect::new(Surface::InnerRace, 0.0, 2e-3, 1e-3, 0.3e-3));
+    /// ```
     pub fn of(damage: Damage, on: Surface, angle: f64) -> Self {
         Self {
             on,

@@ -17,12 +17,16 @@ pub(super) fn allowed(message: &str) -> String {
     }
 }
 
+/// The known name that an unknown one is most like, where it is like any.
+pub(super) fn nearest<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
+    let likeness = |other: &&str| strsim::jaro_winkler(name, other);
+    let like = known.iter().copied().filter(|of| likeness(of) >= LIKE);
+    like.max_by(|a, b| likeness(a).total_cmp(&likeness(b)))
+}
+
 /// Words for an unknown field: the one that may be meant, and all that exist.
 pub(super) fn no_such_field(name: &str, known: &[&str]) -> String {
-    let likeness = |other: &&&str| strsim::jaro_winkler(name, other);
-    let perhaps = (known.iter())
-        .filter(|other| likeness(other) >= LIKE)
-        .max_by(|a, b| likeness(a).total_cmp(&likeness(b)))
+    let perhaps = nearest(name, known)
         .map(|nearest| format!(", perhaps {nearest}"))
         .unwrap_or_default();
     match known {

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Scene;
 use super::absent;
+use super::expected::nearest;
 use super::numbers::BoundedNumber;
 use super::ring::{Mount, RingName};
 use super::time::TimeFunction;
@@ -186,6 +187,16 @@ impl Scene {
         }
     }
 
+    /// Paths of the sizes of loads and moments, and of the drive's torque.
+    fn sizes(&self) -> Vec<String> {
+        let loads = self.loads.keys().map(|name| format!("loads.{name}.force"));
+        let moments = self.moments.keys();
+        let moments = moments.map(|name| format!("moments.{name}.moment"));
+        let torque = matches!(self.drive, Drive::Torque { .. });
+        let torque = torque.then(|| "drive.torque.value".to_owned());
+        loads.chain(moments).chain(torque).collect()
+    }
+
     /// The size of a load, of a moment or of the drive's torque by its path.
     fn size(&mut self, path: &str) -> Option<&mut TimeFunction> {
         let steps: Vec<&str> = path.split('.').collect();
@@ -202,6 +213,7 @@ impl Scene {
 
     /// The size of a constant load or moment, or of a constant torque of the drive, by its path.
     pub(crate) fn constant_load(&mut self, path: &str) -> Result<&mut f64> {
+        let known = self.sizes();
         match self.size(path) {
             Some(TimeFunction::Constant(size)) => Ok(size),
             Some(TimeFunction::Profile(_)) => {
@@ -209,8 +221,14 @@ impl Scene {
                 Err(Error::scene(path, "changing in time", allowed))
             }
             None => {
-                let allowed =
-                    "loads.NAME.force, moments.NAME.moment or drive.torque.value of the scene";
+                let known: Vec<&str> = known.iter().map(String::as_str).collect();
+                let allowed = match (nearest(path, &known), known.is_empty()) {
+                    (Some(like), _) => format!("perhaps {like}; there are: {}", known.join(", ")),
+                    (None, false) => format!("one of {}", known.join(", ")),
+                    (None, true) => {
+                        "a load, moment or torque of the scene, which has none".to_owned()
+                    }
+                };
                 Err(Error::scene(path, "not there", allowed))
             }
         }

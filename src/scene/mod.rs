@@ -18,6 +18,8 @@ mod antiderivative;
 mod approximations;
 mod bearing;
 mod cage;
+#[cfg(feature = "catalogue")]
+pub mod catalogue;
 mod contact;
 mod damage;
 mod defaults;

@@ -3,8 +3,8 @@
 use super::absent;
 use serde::{Deserialize, Serialize};
 
-/// Many small waves around the races and balls of a row, with random phases and amplitudes that fall with their order n (model
-/// section 14): A_n = A_30 (30/n)^slope, times √(−ln v) with v uniform between 0 and 1.
+/// Many small waves around the races and balls of a row, with random phases and amplitudes that fall with their order n (`docs/model.md`,
+/// *Geometry of a row*): A_n = A_30 (30/n)^slope, times √(−ln v) with v uniform between 0 and 1.
 ///
 /// ```
 /// use ballrace::scene::{Texture, presets};

@@ -5,6 +5,7 @@ use serde::Serialize;
 use std::collections::TryReserveError;
 use std::mem;
 use std::ops::ControlFlow;
+use std::sync::{Mutex, PoisonError};
 
 use super::Column;
 use super::filter::HALF;
@@ -35,7 +36,7 @@ pub(crate) enum Keep<'a> {
     /// Samples that all stay.
     All,
     /// Samples that leave block by block.
-    Left(BlockSink<'a>),
+    Left(Mutex<BlockSink<'a>>),
     /// Samples that stay until they are taken.
     Taken,
 }
@@ -152,7 +153,7 @@ impl<'a> Held<'a> {
             };
             self.first += rows;
             left += rows;
-            sink(block)?;
+            sink.get_mut().unwrap_or_else(PoisonError::into_inner)(block)?;
         }
     }
 }

@@ -226,7 +226,7 @@ pub struct RowRolling {
 
 /// How each row of the healthy bearing rolls that is loaded: a ball that rests in a defect at one place would count as if all did all
 /// the time. As a run starts: where friction, drag and gyroscopic moments balance; or, without friction or under
-/// a race's control, by the equations of section 13.5. Absent of a row whose inner
+/// a race's control, by those of `docs/model.md`, *Rings that tilt, balls that spin freely*. Absent of a row whose inner
 /// contacts carry nothing, so that nothing drives it.
 ///
 /// # Errors

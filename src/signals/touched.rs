@@ -76,7 +76,7 @@ impl Touched {
         self
     }
 
-    /// Doubt about a defect that is narrower than the contacts that meet it and is not a pit (model section 15.4).
+    /// Doubt about a defect that is narrower than the contacts that meet it and is not a pit (`docs/model.md`, *Defects*).
     pub(crate) fn doubt(&self, scene: &Scene) -> Option<Doubt> {
         let defect = &scene.defects[&self.name];
         let (width, contact) = (defect.damage.width(), self.contact_width?);

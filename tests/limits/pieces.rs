@@ -607,5 +607,5 @@ fn what_cannot_be_changed_or_reached_is_refused_by_name() {
     let words = simulation.snapshot().to_json();
     let wrong = words.replacen("\"trajectory\":[", "\"trajectory\":[7,", 1);
     let refused = Snapshot::from_json(&wrong).and_then(|of| Simulation::restore(&of));
-    assert!(matches!(refused, Err(Error::Scene { path, .. }) if path == "snapshot"));
+    assert!(matches!(refused, Err(Error::Snapshot { path, .. }) if path == "snapshot"));
 }

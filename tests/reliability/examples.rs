@@ -10,6 +10,9 @@ mod cancel;
 mod own_bearing;
 #[path = "../../examples/own_ode.rs"]
 mod own_ode;
+#[cfg(feature = "catalogue")]
+#[path = "../../examples/service.rs"]
+mod service;
 
 #[test]
 fn blocks_runs() {
@@ -34,4 +37,10 @@ fn own_bearing_runs() {
 #[test]
 fn own_ode_runs() {
     own_ode::main().unwrap();
+}
+
+#[cfg(feature = "catalogue")]
+#[test]
+fn service_runs() {
+    service::main().unwrap();
 }

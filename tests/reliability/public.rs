@@ -145,3 +145,38 @@ fn results_are_serialised() {
     let error = serde_json::to_value(error.unwrap_err()).unwrap();
     assert_eq!(error["Scene"]["path"], "rows");
 }
+
+/// What a service moves to threads, or shares between them.
+#[test]
+fn scenes_runs_and_results_may_go_to_other_threads() {
+    fn shared<T: Send + Sync>() {}
+    shared::<Scene>();
+    shared::<Run>();
+    shared::<ballrace::Model>();
+    shared::<ballrace::Simulation>();
+    shared::<ballrace::Snapshot>();
+    shared::<ballrace::Signals>();
+    shared::<ballrace::Block>();
+    shared::<ballrace::Equilibrium>();
+    shared::<ballrace::FaultFrequencies>();
+    shared::<ballrace::Outcome>();
+    shared::<Error>();
+}
+
+/// Results that are written can be read.
+#[test]
+fn results_are_read_as_they_were_written() {
+    fn again<T: serde::Serialize + serde::de::DeserializeOwned>(of: &T) -> T {
+        serde_json::from_str(&serde_json::to_string(of).unwrap()).unwrap()
+    }
+    let out = simulate(&bearing(), &short()).unwrap();
+    assert_eq!(again(&out.stats), out.stats);
+    let features = ballrace::features(&out, &FeatureOptions::default()).unwrap();
+    assert_eq!(again(&features), features);
+    let model = compile(&bearing()).unwrap();
+    let state = start(&model, &Start::Equilibrium).unwrap();
+    let contact = inspect::contact(&model, &state, 0, Race::Outer);
+    assert_eq!(again(&contact), contact);
+    let rates = ballrace::fault_frequencies(&bearing(), 0).unwrap();
+    assert_eq!(again(&rates), rates);
+}

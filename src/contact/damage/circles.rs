@@ -1,4 +1,4 @@
-//! Fault circles of ring and ball against whatever stands opposite (model section 7).
+//! Fault circles of ring and ball against whatever stands opposite (`docs/model.md`, *Defects*).
 
 use super::arc::{Edge, WITH_RING_AXIS};
 use super::depth::Depth;

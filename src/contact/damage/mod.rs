@@ -1,7 +1,7 @@
 //! Damage of surfaces: one file for each kind behind the trait [`DamageKind`], and what a contact meets where a surface is damaged.
 //!
-//! A damage acts in one of two ways ([`Acts`]): the surface is absent over arcs at whose ends fault circles stand (model section 7), or the
-//! contact keeps whole surfaces and changes its energy, and with it its force (section 15). [`Facing`] is a ball before a race: `elements`
+//! A damage acts in one of two ways ([`Acts`]): the surface is absent over arcs at whose ends fault circles stand (`docs/model.md`, *Defects*), or the
+//! contact keeps whole surfaces and changes its energy, and with it its force. [`Facing`] is a ball before a race: `elements`
 //! has the surfaces that a slice meets there, `circles` fault circles against whatever stands opposite, `gradient` what makes their forces
 //! conservative, `released` the energy of what is smaller than the contact.
 

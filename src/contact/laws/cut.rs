@@ -5,9 +5,9 @@
 #[non_exhaustive]
 pub enum Cut {
     /// Slices of the ball's surface, each of which presses along its own normal by its penetration in the plane,
-    /// s = σ (d − R(z)) + ρ (model section 3). The line is the chord that ball and groove have in common.
+    /// s = σ (d − R(z)) + ρ (`docs/model.md`, *Slices*). The line is the chord that ball and groove have in common.
     BallSurface,
-    /// Elements of the common tangent, which all press along the common normal by δ − κ u²/2 (model section 4).
+    /// Elements of the common tangent, which all press along the common normal by δ − κ u²/2 (`docs/model.md`, *Normal force*).
     CommonTangent {
         /// κ, curvature of the gap that the zone sees \[1/m\].
         curvature: f64,

@@ -105,7 +105,7 @@ fn pockets(scene: &Scene, ring: &CageRing, found: &mut Vec<Doubt>) {
             let value = format!("{} N/m", number(stiffness));
             found.push(Doubt::new("cage.ring.stiffness", value, usual));
         }
-        let [ftf, ..] = row.orders();
+        let ftf = row.geometry().orders().ftf;
         let thrown = (ftf * inner + (1.0 - ftf) * outer).powi(2) * pitch;
         let fall = (4.0 * gravity * ring.pocket_clearance(d) * stiffness * ball).sqrt();
         let held = 0.5 * ball * (thrown - gravity);

@@ -1,5 +1,7 @@
 //! Records in blocks, and what is read before t = 0.
 
+use std::sync::Mutex;
+
 use super::*;
 use crate::integrate::{self, DORMAND_PRINCE, Options, Tolerance, integrate};
 use crate::scene::{Probe, Scene, presets};
@@ -22,7 +24,7 @@ fn recorded(
     let y0 = start(&model, &Start::Rolling).unwrap();
     let sampling = Sampling::new(bandwidth, FS, model.scales().frequency).unwrap();
     let mut dynamics = Dynamics::new(&model);
-    let keep = sink.map_or(Keep::All, Keep::Left);
+    let keep = sink.map_or(Keep::All, |sink| Keep::Left(Mutex::new(sink)));
     let mut recorder = Recorder::new(&model, sampling, COUNT, keep);
     recorder.held.block = 7;
     recorder.prepare(&dynamics, &y0).unwrap();

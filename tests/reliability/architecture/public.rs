@@ -171,6 +171,9 @@ fn leaks_are_seen() {
 /// Enums that are complete: nobody will name a third ring without rewriting the model.
 const CLOSED: [&str; 4] = ["Race", "BodyKind", "Degree", "ZoneSlices"];
 
+/// A struct of a scene's room that is complete, all that rolling depends on: outside it is written by the names of its fields.
+const GEOMETRY: &str = "RowGeometry";
+
 /// Public structs and enums of scenes, and enums of all rooms, that a later version could not extend.
 fn frozen(sources: &[Source]) -> (Vec<String>, usize) {
     let (mut found, mut seen) = (Vec::new(), 0);
@@ -180,7 +183,9 @@ fn frozen(sources: &[Source]) -> (Vec<String>, usize) {
             let name = public_name(&item, "enum")
                 .filter(|name| of_scene || !CLOSED.contains(name))
                 .or_else(|| public_name(&item, "struct").filter(|_| of_scene));
-            let Some(name) = name else { continue };
+            let Some(name) = name.filter(|name| *name != GEOMETRY) else {
+                continue;
+            };
             seen += 1;
             if !item.contains("#[non_exhaustive]\npub ") {
                 found.push(format!("{path}: {name} is not #[non_exhaustive]"));

@@ -115,7 +115,7 @@ fn fourth<T: Number>(x: T) -> T {
 mod tests {
     use super::asperity_share;
 
-    /// The numbers that stand in section 12.7.
+    /// Numbers computed from the equation above.
     #[test]
     fn asperities_bear_less_under_thicker_films() {
         for (lambda, share) in [(0.5, 0.38), (1.0, 0.15), (2.0, 0.028), (3.0, 0.006)] {

@@ -1,4 +1,4 @@
-//! Truths that hold of films by model section 12.12: limits, smoothness, dimensions.
+//! Truths that hold of films by `docs/model.md`, *Film*: limits, smoothness, dimensions.
 
 use std::f64::consts::TAU;
 
@@ -232,7 +232,7 @@ fn slow_damping_falls_with_frequency() {
     let fast = at(None);
     println!("{slow:?} {fast}");
     assert!(slow[0] > slow[1] && slow[1] > slow[2] && slow[2] > fast);
-    // 0.46 h₁ b (1.5 Q/δ)²/(Q u) by the numbers of section 12.14.
+    // 0.46 h₁ b (1.5 Q/δ)²/(Q u) by its reference values.
     let slowest = 0.46 * 2.3085e-7 * 1.15654e-4 * (375.0_f64 / 4.65498e-6).powi(2) / 440.17;
     near(at(Some(1e-3)) - fast, slowest, 1e-4);
     // 2π f b/u of 3 kHz is 1.24, of which 1.4 squares leave 0.32.

@@ -1,4 +1,4 @@
-//! Reference values of model section 12.14. Tolerances are those that stand there, or half the last printed digit.
+//! Reference values of `docs/model.md`, *Film*. Tolerances are those that stand there, or half the last printed digit.
 
 use std::f64::consts::{PI, TAU};
 
@@ -10,7 +10,7 @@ use super::{
     hertz, near, race, reference, vg68,
 };
 
-/// Literature: the formulas of section 12.1 as printed.
+/// Literature: the formulas of the oil as printed.
 #[test]
 fn oil_has_the_reference_numbers() {
     let oil = vg68(55.0);
@@ -100,7 +100,7 @@ fn film_has_the_reference_numbers() {
     }
 }
 
-/// Literature: film damping of section 12.6 in N s/m, over loads and over the frequencies of (12.17).
+/// Literature: film damping in N s/m, over loads and over the frequencies of (12.17).
 #[test]
 fn damping_is_that_of_section_12_6() {
     let film = film();
@@ -190,7 +190,7 @@ fn film_is_as_thick_as_surfaces_are_rough_at_kappa_one() {
     );
 }
 
-/// Literature: films of both races of a 6205 at 250 N a ball by temperature (section 12.10).
+/// Literature: films of both races of a 6205 at 250 N a ball by temperature.
 #[test]
 fn films_thin_as_oil_warms() {
     for (celsius, inner, outer) in [(40.0, 0.31, 0.38), (55.0, 0.19, 0.23), (70.0, 0.13, 0.15)] {
