@@ -4,7 +4,8 @@
 use crate::common::{Noise, rms};
 use ballrace::dynamics::{contributions, rhs};
 use ballrace::scene::{
-    Cage, CageGuidance, CageRing, Drive, Friction, Method, Mount, Probe, Row, Scene, Spin, presets,
+    Cage, CageGuidance, CageRing, Drive, Friction, Method, Mount, Probe, Row, Scene, Spin, Support,
+    presets,
 };
 use ballrace::{Bandwidth, BodyId, Dof, Model, Run, Start, compile, inspect, simulate, start};
 
@@ -29,11 +30,11 @@ fn loose(change: impl Fn(&mut CageRing)) -> Scene {
     scene.rows[0].clearance = 1e-3;
     scene.friction = Friction::None;
     scene.loads.clear();
-    scene.outer_ring.support = Default::default();
+    scene.outer_ring.support = Support::default();
     let support = &mut scene.outer_ring.support;
     (support.x, support.y, support.theta) =
         (Some(Mount::Free), Some(Mount::Free), Some(Mount::Free));
-    scene.inner_ring.support = Default::default();
+    scene.inner_ring.support = Support::default();
     scene.drive = Drive::Torque {
         value: 0.0.into(),
         initial_speed: 125.0,

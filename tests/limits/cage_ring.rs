@@ -12,6 +12,7 @@ use ballrace::{Bandwidth, Error, Run, Signals, simulate};
 /// Speed of the shaft \[Hz\].
 const SHAFT: f64 = 1797.0 / 60.0;
 
+#[allow(clippy::unnecessary_wraps)] // what a scene holds
 fn ring(change: impl Fn(&mut CageRing)) -> Option<Cage> {
     let mut ring = CageRing::default();
     change(&mut ring);
