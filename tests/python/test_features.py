@@ -112,7 +112,8 @@ def test_a_run_an_array_and_a_campaign_say_the_same(tmp_path: Path) -> None:
     assert found["batches"] == 9.0
     assert found["turns"] == pytest.approx(2.7, rel=1e-3)
     assert found["row0.passes"] == pytest.approx(9.7, rel=0.01)
-    assert found == {name: row[name] for name in found}
+    # The manifest leaves out what no case has.
+    assert found == {name: row.get(name) for name in found}
     loads = [out[f"all.ball{i}.outer.load"][120:] for i in range(9)]
     assert found["row0.outer.load_max"] == np.max(loads)
 
