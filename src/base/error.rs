@@ -25,7 +25,7 @@ pub enum Error {
     Record {
         /// The record's name as an argument.
         path: String,
-        /// What was found, and where.
+        /// Value of the sample that was found, and its place.
         value: String,
         /// Samples that are allowed.
         allowed: String,
@@ -35,9 +35,9 @@ pub enum Error {
     Snapshot {
         /// Dotted path in the snapshot's document.
         path: String,
-        /// What was found there.
+        /// Value that was found there.
         value: String,
-        /// What is allowed there.
+        /// Values that are allowed there.
         allowed: String,
     },
     /// The static solve found no stable equilibrium.
@@ -53,7 +53,7 @@ pub enum Error {
         path: String,
         /// Time at which it was called \[s\].
         time: f64,
-        /// What it gave, or the message of its panic.
+        /// Number that the force gave, or the message of its panic.
         reason: String,
     },
     /// The integration could not go on.

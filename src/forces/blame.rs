@@ -1,4 +1,4 @@
-//! Whose fault it is: the last force by a program's own code that was not finite, or panicked, on this thread.
+//! Blame: the last force by a program's own code that was not finite, or panicked, on this thread.
 //!
 //! Neither the right-hand side nor a residual of the static solve returns a [`Result`]: a force that is no number ends them where its
 //! sums are judged. There the error asks here for the force's name.

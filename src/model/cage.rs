@@ -16,7 +16,7 @@ const SLIP_SPEED: f64 = 0.01;
 pub(crate) struct CageModel {
     /// Clearance of a ball on either side of its pocket \[m\].
     pub clearance: f64,
-    /// Of a pocket's wall \[N/m\].
+    /// Stiffness of a pocket's wall \[N/m\].
     pub stiffness: f64,
     /// The same \[N s/m\], from a depth on \[m\].
     pub damping: f64,
@@ -25,9 +25,9 @@ pub(crate) struct CageModel {
     pub friction: f64,
     /// Slip speed below which friction fades \[m/s\].
     pub slip_speed: f64,
-    /// What carries its centre.
+    /// Guidance: what carries the cage's centre.
     pub carried: Carried,
-    /// Its mass times the distance of its centre of mass from its centre \[kg m\], towards pocket 0.
+    /// Unbalance of the cage, its mass times the distance of its centre of mass from its centre \[kg m\], towards pocket 0.
     pub unbalance: f64,
     /// Pitch radius \[m\].
     pub radius: f64,
@@ -39,10 +39,10 @@ pub(crate) struct CageModel {
     pub inertia: f64,
 }
 
-/// What carries a cage's centre.
+/// Guidance of a cage's centre.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Carried {
-    /// It is the outer ring's.
+    /// The outer ring's centre is the cage's.
     Held,
     /// A spring to the outer ring's centre.
     Spring(CentringSpring),
@@ -76,7 +76,7 @@ pub(crate) struct Land {
 }
 
 impl CageModel {
-    /// Of a row by its number, whose balls have a mass \[kg\].
+    /// Cage of a row by its number, whose balls have a mass \[kg\].
     pub fn new(
         scene: &Scene,
         ring: &CageRing,
@@ -139,7 +139,7 @@ impl CageModel {
         }
     }
 
-    /// Its body. A centre that is held has no mass.
+    /// Body of the cage. A centre that is held has no mass.
     pub fn body(&self, row: usize, of: &Row) -> Body {
         let free = Degree::Free {
             stiffness: 0.0,
@@ -157,7 +157,7 @@ impl CageModel {
         }
     }
 
-    /// Where its centre is at rest by its weight, from that of the ring that carries it \[m\].
+    /// Place of the cage's centre at rest by its weight, from that of the ring that carries it \[m\].
     pub fn sag(&self, gravity: [f64; 3]) -> V2 {
         let weight = V2::new(gravity[0], gravity[1]) * self.mass;
         let size = weight.norm();

@@ -97,7 +97,7 @@ pub(crate) struct RowModel {
     pub texture_widths: Option<[f64; 2]>,
     /// Drag of a ball over the square of its speed \[N s²/m²\].
     pub drag: f64,
-    /// Its cage, where that is a ring.
+    /// Cage of the row, where that is a ring.
     pub cage: Option<Box<CageModel>>,
 }
 

@@ -11,16 +11,16 @@ use super::numbers::{BoundedNumber, NumberRange};
 
 /// Density of the steel of a cage whose mass is not given \[kg/m³\].
 const STEEL: f64 = 7800.0;
-/// Its section over the ball diameter, along the radius and along the axis.
+/// Section of the ring over the ball diameter, along the radius and along the axis.
 const SECTION: [f64; 2] = [0.2, 0.9];
-/// Of the circle of a ball, the share that a pocket takes out of it: its bars and rims go round the ball.
+/// Share of a ball's circle that a pocket takes out of the ring: its bars and rims go round the ball.
 const CUT_OUT: f64 = 0.5;
 
-/// By how much of the usual clearance of its pockets its weight lowers a centred cage, and gravity there \[m/s²\].
+/// Sag of a centred cage by its weight over the usual clearance of its pockets, and gravity there \[m/s²\].
 const SAG: f64 = 1.0 / 6.0;
 const STANDARD_GRAVITY: f64 = 9.81;
 
-/// What keeps the balls of a row apart.
+/// Cage: keeps the balls of a row apart.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(untagged)]
 #[non_exhaustive]
@@ -51,7 +51,7 @@ impl Cage {
         }
     }
 
-    /// Its links, if it has some.
+    /// Links of the cage, if it has some.
     pub fn links(&self) -> Option<&CageLinks> {
         match self {
             Self::Links(links) => Some(links),
@@ -67,7 +67,7 @@ impl Cage {
         }
     }
 
-    /// Its numbers, each by its path in the cage.
+    /// Numbers of the cage, each by its path in it.
     pub(super) fn numbers(&self) -> Vec<BoundedNumber> {
         match self {
             Self::Links(links) => links.numbers().into(),
@@ -130,7 +130,7 @@ pub struct CageLinks {
 }
 
 impl CageLinks {
-    /// Its numbers.
+    /// Numbers of the links.
     fn numbers(&self) -> [BoundedNumber; 3] {
         // Named one by one, so that the compiler asks about a new field.
         let Self {
@@ -146,21 +146,21 @@ impl CageLinks {
     }
 }
 
-/// What carries a cage that is a ring.
+/// Guidance of a cage that is a ring: what carries it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum CageGuidance {
-    /// Its centre is free, and a soft spring and a damper hold it at that of the outer ring.
+    /// A soft spring and a damper hold the cage's free centre at that of the outer ring.
     #[default]
     Centred,
-    /// Its centre is that of the outer ring; it has a moment of inertia and no mass. What balls do to the pockets strikes the ring.
+    /// The outer ring's centre is the cage's, which has a moment of inertia and no mass. What balls do to the pockets strikes the ring.
     Held,
-    /// Its centre is free, with weight, and a land of the outer ring carries it.
+    /// A land of the outer ring carries the cage, whose centre is free, with weight.
     Outer,
     /// The same on a land of the inner ring.
     Inner,
-    /// Its centre is free, with weight, and the balls carry it in round pockets.
+    /// The balls carry the cage in round pockets; its centre is free, with weight.
     Balls,
 }
 
@@ -199,9 +199,9 @@ pub struct CageRing {
     pub pocket_errors: Vec<f64>,
     /// Standard deviation of further errors, drawn from the seed \[rad\].
     pub pocket_error: f64,
-    /// What they are drawn from.
+    /// Seed of the errors that are drawn.
     pub seed: u64,
-    /// What carries it.
+    /// Guidance: what carries the cage.
     pub guided: CageGuidance,
     /// Stiffness of the spring that centres it \[N/m\], with half of the critical damping; absent: one on which its weight lowers it
     /// by a sixth of the usual clearance of its pockets, 9.4·10³ N/m in a 6205.
@@ -275,7 +275,7 @@ impl CageRing {
         self.inertia.unwrap_or(self.mass(row) * radius * radius)
     }
 
-    /// Its numbers that are given, each by its path in the cage.
+    /// Numbers of the ring that are given, each by its path in the cage.
     fn numbers(&self) -> Vec<BoundedNumber> {
         // Named one by one, so that the compiler asks about a new field.
         let Self {

@@ -90,7 +90,7 @@ impl Bearing {
         })
     }
 
-    /// What the fault frequencies of a row depend on, at the nominal contact angle.
+    /// Geometry of a row, on which fault frequencies depend, at the nominal contact angle.
     pub fn geometry(&self) -> RowGeometry {
         RowGeometry {
             ball_count: self.ball_count as f64,
@@ -100,7 +100,7 @@ impl Bearing {
         }
     }
 
-    /// One of its rows for a scene, with conformities of 0.53 and 0.52, which are assumed.
+    /// Row of the bearing for a scene, with conformities of 0.53 and 0.52, which are assumed.
     pub fn row(&self) -> Row {
         let [outer, inner] = CONFORMITIES;
         let mut row = Row::new(

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Row, Scene, Surface};
 
-/// What the kinematics of a row of balls depends on.
+/// Geometry of a row of balls on which its kinematics depends.
 ///
 /// ```
 /// use ballrace::scene::RowGeometry;
@@ -99,7 +99,7 @@ pub fn kinematic_orders(
 }
 
 impl Row {
-    /// What its kinematics depends on, at the nominal contact angle.
+    /// Geometry of the row on which its kinematics depends, at the nominal contact angle.
     pub fn geometry(&self) -> RowGeometry {
         RowGeometry {
             ball_count: self.ball_count as f64,

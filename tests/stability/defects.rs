@@ -96,6 +96,9 @@ fn as_the_width_goes_to_zero_the_healthy_signal_comes_back() {
     assert!(differences[0] > 2e-3 && differences[4] < 1e-4);
 }
 
+/// Doubts about balls at speed.
+const AT_SPEED: [&str; 4] = ["load of the most", "gyroscopic", "contact angle", "spin"];
+
 /// Failure: the faster a ball, the harder it hits the far edge, and the fewer steps see it: at 30 000 rpm a step of the
 /// cap is 0.3 mm of race, more than a narrow spall's width. Truth: steps of 0.2 µm at rtol 1e-9.
 /// Instead: the controller rejects and shortens at the edges; the error stays below 1 %.
@@ -124,17 +127,12 @@ fn a_ball_hits_an_edge_at_speed() {
             out.stats.acceleration_residual.unwrap()
         );
         assert!(error < 0.01, "{error}");
-        // One of the widths is less than its contact's, and at speed the load is small; nothing else warns.
-        let narrow = |warning: &str| {
-            warning.contains("1.3 times the width of the contacts")
-                || (rpm > 1e4 && warning.contains("load of the most loaded ball"))
-        };
-        assert!(
-            out.warnings()
-                .iter()
-                .all(|warning| narrow(&warning.to_string()))
-        );
-        assert_eq!(out.warnings().len(), usize::from(width < 1e-3));
+        // One of the widths is less than its contact's, and at speed loads, angles and axes are doubted; no more is.
+        let mut told: Vec<String> = out.warnings().iter().map(ToString::to_string).collect();
+        told.retain(|text| rpm < 1e4 || !AT_SPEED.iter().any(|doubt| text.contains(doubt)));
+        let narrow = |text: &String| text.contains("1.3 times the width of the contacts");
+        assert!(told.iter().all(narrow), "{told:?}");
+        assert_eq!(told.len(), usize::from(width < 1e-3), "{told:?}");
     }
 }
 

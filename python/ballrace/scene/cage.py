@@ -30,7 +30,7 @@ class Cage(Part):
 
 
 CageGuidance = Literal["centred", "held", "outer", "inner", "balls"]
-"""What carries a cage that is a ring: a soft spring, the outer ring itself, a land of a ring, or the balls."""
+"""Guidance of a cage that is a ring: a soft spring, the outer ring itself, a land of a ring, or the balls."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,12 +1,12 @@
-//! What carries the centre of a cage that is a ring, and a centre of mass beside it: their equations are in [`super::ring`].
+//! Centre of a cage that is a ring: what carries it, and a centre of mass beside it; equations are in [`super::ring`].
 
 use super::pocket::{Laws, Turning, Wall};
 use crate::contact::{Motion, V2, cross};
 use crate::model::{CageModel, CentringSpring, Dof, Land, Model};
 
-/// What the spring of a centred cage does.
+/// Force of the spring of a centred cage.
 pub(super) struct Centred {
-    /// On the outer ring \[N\], and about its centre \[N m\].
+    /// Force on the outer ring \[N\], and moment about its centre \[N m\].
     pub on_ring: V2,
     pub about_ring: f64,
     pub energy: f64,
@@ -27,7 +27,7 @@ impl Centred {
     }
 }
 
-/// What a land does to a cage: the levers are those of friction about the centres of cage and ring; none within the clearance.
+/// Force of a land on a cage: the levers are those of friction about the centres of cage and ring; none within the clearance.
 pub(super) fn on_land(
     cage: &CageModel,
     land: &Land,

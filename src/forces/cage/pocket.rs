@@ -26,7 +26,7 @@ impl Turning {
         }
     }
 
-    /// Towards its centre of mass where that is off its centre.
+    /// Direction towards the cage's centre of mass where that is off its centre.
     pub fn direction(&self) -> V2 {
         V2::new(self.cos, self.sin)
     }
@@ -34,7 +34,7 @@ impl Turning {
 
 /// A body pressed against a wall of the cage.
 pub(super) struct Wall {
-    /// From the body to the wall.
+    /// Direction from the body to the wall.
     pub normal: V2,
     /// N \[N\], and f along τ \[N\].
     pub force: f64,
@@ -84,7 +84,7 @@ pub(super) struct InPocket {
 }
 
 impl Laws {
-    /// Of a cage's pockets.
+    /// Pockets of a cage.
     pub fn of_pockets(cage: &CageModel) -> Self {
         Self {
             stiffness: cage.stiffness,
@@ -103,7 +103,7 @@ pub(super) fn towards(cage: &CageModel, turning: &Turning, pocket: usize) -> V2 
     V2::new(cos * own.x - sin * own.y, sin * own.x + cos * own.y)
 }
 
-/// What a ball does to the wall of its pocket; none within the clearance.
+/// Force of a ball on the wall of its pocket; none within the clearance.
 #[inline]
 pub(super) fn wall(
     cage: &CageModel,
@@ -160,7 +160,7 @@ pub(super) fn wall(
 }
 
 impl Wall {
-    /// On the body.
+    /// Force on the body.
     #[inline]
     pub fn on_body(&self) -> V2 {
         let tangent = V2::new(-self.normal.y, self.normal.x);

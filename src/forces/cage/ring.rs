@@ -110,7 +110,7 @@ impl Force for CageRings {
     }
 }
 
-/// What the cage of a row does, and what is done to it.
+/// Forces of the cage of a row, and on it.
 fn add(model: &Model, (at, cage): (usize, &CageModel), on: &Instant<'_>, sums: &mut ForceSums<'_>) {
     let (row, body, state) = (&model.rows[at], model.layout().cage(at), on.state);
     let centre = match cage.carried {
