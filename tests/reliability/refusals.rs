@@ -128,8 +128,8 @@ fn scenes_are_refused_by_the_field() {
             load_distribution(&scene, 2).err(),
             feature_columns(&scene, &options).err(),
         ];
-        // Features of a signal ask for rows and speeds alone.
-        let asked = ["rows", "drive"].iter().any(|of| field.starts_with(of));
+        // Features of a signal ask for the numbers of balls and for speeds alone.
+        let asked = ["rows[0].ball_count", "drive.speed"].contains(&field);
         let features = asked.then(|| signal_features(&x, 1e3, "x", Some(&scene), &options).err());
         for (call, error) in errors.into_iter().chain(features).enumerate() {
             match error {
