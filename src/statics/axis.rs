@@ -12,6 +12,7 @@ use super::rolling::RaceControl;
 use super::steady::{keep, orbit};
 use super::{Equilibrium, Spacing, compile, describe, in_motion};
 use crate::base::error::Result;
+use crate::base::interrupt;
 use crate::contact::{V2, centrifugal};
 use crate::inspect;
 use crate::model::{Between, BodyId, Dof, Model, Race, RowModel};
@@ -121,7 +122,10 @@ impl OneSpin {
         let mut y = in_motion(&model, RaceControl::Friction, Spacing::Equal)?;
         keep(&model, &mut y);
         let [turned, _] = model.scene.ring_speeds(0.0);
+        // With very many slices each of these takes a third of a second.
+        interrupt::check()?;
         let found = describe(&model, &y, 0);
+        interrupt::check()?;
         let rows = || model.rows.iter();
         let most = rows().map(|row| largest(&found, row)).fold(0.0, f64::max);
         let rows = rows().map(|row| {
