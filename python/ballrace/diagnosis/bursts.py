@@ -29,7 +29,8 @@ def bursts_of(evidence: Mapping[Part, Evidence]) -> Bursts | None:
     """Return the impacts that come and go with the cage; None where there are none, or the cage has no lines."""
     if "cage" not in evidence:
         return None
-    cage = evidence["cage"]
-    if cage.strength.kurtosis < _IMPACTS or cage.strength.is_shallow:
+    cage, strength = evidence["cage"], evidence["cage"].strength
+    # Tones beside each other swell and fade, too; as a sine does.
+    if strength.kurtosis < _IMPACTS or strength.is_shallow or strength.is_sine:
         return None
-    return Bursts(kurtosis=cage.strength.kurtosis, probability=cage.probability)
+    return Bursts(kurtosis=strength.kurtosis, probability=cage.probability)

@@ -216,7 +216,9 @@ def _changing(
     rates = rates - np.log(2.0) * np.rint((rates - middle) / np.log(2.0))
     low, high = np.quantile(rates, [0.05, 0.95])
     # A rate that changes is followed from piece to piece; chance jumps.
-    follows = np.corrcoef(rates[:-1], rates[1:])[0, 1] if high - low > _STEADY else 0.0
+    before, after = rates[:-1], rates[1:]
+    varies = high - low > _STEADY and min(np.ptp(before), np.ptp(after)) > 0.0
+    follows = np.corrcoef(before, after)[0, 1] if varies else 0.0
     return (float(np.exp(low)), float(np.exp(high))) if follows > _FOLLOWS else None
 
 

@@ -99,7 +99,7 @@ class Strength:
 
     @property
     def is_sine(self) -> bool:
-        """Whether vibration may only swell and fade as a sine does, as by hum of the mains."""
+        """Whether the part's lines may be of vibration that swells and fades as a sine, as by hum of the mains."""
         return self.overtones < _OVERTONES
 
     @property
