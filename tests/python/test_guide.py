@@ -140,6 +140,28 @@ def test_the_paper_has_numbers_that_are_tested_or_measured() -> None:
         assert (ROOT / "paper" / picture).is_file()
 
 
+def test_lines_of_one_formula_are_a_row_and_a_count() -> None:
+    """And the row of the validation page is that of the furthest."""
+    spec = importlib.util.spec_from_file_location("validation", ROOT / "tests" / "validation.py")
+    assert spec
+    assert spec.loader
+    program = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(program)
+    printed = (
+        "| 6205: orbit, orders | 0.4 | 0.4 | +0.000 % | 0.3 % |\n"
+        "| 6205, inner: line at order 4.390, Hz | 100 | 99.9 | -0.100 % | 0.3 % |\n"
+        "| 6205, inner: line at order 5.390, Hz | 200 | 200.1 | +0.050 % | 0.3 % |\n"
+    )
+    found = program.rows(printed).splitlines()
+    assert found[0] == printed.splitlines()[0]
+    assert found[1:] == [
+        "| 2 lines of simulated defects; the furthest: 6205, inner: line at order 4.390, Hz"
+        " | 100 | 99.9 | -0.100 % | 0.3 % |"
+    ]
+    page = (ROOT / "tests" / "README.md").read_text(encoding="utf-8")
+    assert len(re.findall(r": line at order [\d.]+, Hz \|", page)) == 1
+
+
 def test_what_pages_link_to_is_there() -> None:
     """Pages and pictures; the build looks at the anchors of the guide's own."""
     for page in [ROOT / "README.md", *GUIDE.glob("*.md")]:

@@ -101,9 +101,9 @@ def test_the_page_lists_what_is_known_and_not_read() -> None:
 
 def test_every_message_of_the_page_has_a_remedy() -> None:
     rows = re.findall(
-        r"^\| (`.+) \| (.+) \| (.+) \|$",
+        r"^\| (`.+) \| (.+) \|$",
         (ROOT / "docs" / "refused.md").read_text(encoding="utf-8"),
         re.MULTILINE,
     )
     assert len(rows) > 50
-    assert all(meaning.strip() and remedy.strip() for _, meaning, remedy in rows)
+    assert all(remedy.strip() for _, remedy in rows)
