@@ -214,12 +214,7 @@ pub unsafe extern "C" fn fmi3ExitInitializationMode(handle: *mut Handle) -> Stat
 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3Terminate(handle: *mut Handle) -> Status {
-    unsafe {
-        with(handle, |instance| {
-            instance.terminate();
-            Ok(())
-        })
-    }
+    unsafe { with(handle, |instance| instance.terminate()) }
 }
 
 #[unsafe(no_mangle)]
@@ -379,8 +374,7 @@ pub unsafe extern "C" fn fmi3DeserializeFMUState(
 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3EnterStepMode(handle: *mut Handle) -> Status {
-    // Without event mode it is always in it.
-    unsafe { with(handle, |_| Ok(())) }
+    unsafe { with(handle, |instance| instance.enter_step_mode()) }
 }
 
 #[unsafe(no_mangle)]

@@ -13,6 +13,7 @@ use ballrace::{Bandwidth, Race, Result, Run, Simulation, Snapshot};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use crate::checksum::checksum;
 use crate::variables::{Role, Source, Table, Variable, direction};
 
 /// Samples a second of the record, which nobody reads: the fewest that the crate takes.
@@ -31,6 +32,17 @@ enum Phase {
     Initialization,
     Step,
     Terminated,
+}
+
+impl Phase {
+    fn label(self) -> &'static str {
+        match self {
+            Phase::Instantiated => "before fmi3EnterInitializationMode",
+            Phase::Initialization => "in initialization mode",
+            Phase::Step => "after fmi3ExitInitializationMode",
+            Phase::Terminated => "after fmi3Terminate",
+        }
+    }
 }
 
 /// A simulation between communication steps.
@@ -79,14 +91,21 @@ pub struct State {
 }
 
 impl State {
-    /// The state as bytes.
+    /// The state as bytes: a document of JSON behind its checksum.
     pub fn to_bytes(&self) -> FmuResult<Vec<u8>> {
-        serde_json::to_vec(self).map_err(|e| e.to_string())
+        let document = serde_json::to_vec(self).map_err(|e| e.to_string())?;
+        let sum = checksum(document.iter().copied()).to_le_bytes();
+        Ok([&sum[..], &document].concat())
     }
 
-    /// The state of such bytes.
+    /// The state of such bytes, none of them changed.
     pub fn from_bytes(bytes: &[u8]) -> FmuResult<Self> {
-        serde_json::from_slice(bytes).map_err(|e| format!("no state of this FMU: {e}"))
+        let split = bytes.split_first_chunk();
+        let (sum, document) = split.ok_or("no state of this FMU: shorter than its checksum")?;
+        if checksum(document.iter().copied()) != u64::from_le_bytes(*sum) {
+            return Err("no state of this FMU, or bytes of it were changed".to_owned());
+        }
+        serde_json::from_slice(document).map_err(|e| format!("no state of this FMU: {e}"))
     }
 }
 
@@ -123,9 +142,16 @@ impl Instance {
         self.answers = Answers::default();
     }
 
-    /// Nothing goes on from here but a reset or another state.
-    pub fn terminate(&mut self) {
+    /// Ends a simulation that has been initialised; nothing goes on from here but a reset or another state.
+    pub fn terminate(&mut self) -> FmuResult<()> {
+        self.expect(Phase::Step, "fmi3Terminate")?;
         self.phase = Phase::Terminated;
+        Ok(())
+    }
+
+    /// Stays between steps, where an instance without event mode always is once it is initialised.
+    pub fn enter_step_mode(&self) -> FmuResult<()> {
+        self.expect(Phase::Step, "fmi3EnterStepMode")
     }
 
     /// Begins to initialise for a time \[s\].
@@ -373,10 +399,8 @@ impl Instance {
         if self.phase == phase {
             return Ok(());
         }
-        Err(format!(
-            "{function} may not be called when {:?}",
-            self.phase
-        ))
+        let phase = self.phase.label();
+        Err(format!("{function} may not be called {phase}"))
     }
 }
 

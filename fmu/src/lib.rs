@@ -10,10 +10,12 @@
 //! | `description` | `modelDescription.xml` of such a table |
 //! | `instance` | a simulation between communication steps, its values and states |
 //! | `abi` | the functions in C, with the only `unsafe` code: pointers, texts, panics that may not cross |
+//! | `checksum` | by which changed bytes of a state are noticed |
 //! | `absent` | the functions of what an FMU need not have |
 
 mod abi;
 mod absent;
+mod checksum;
 mod description;
 mod instance;
 mod variables;

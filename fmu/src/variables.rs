@@ -9,6 +9,8 @@ use ballrace::scene::{Component, Drive, Load, Moment, Mount, Scene, TimeFunction
 use ballrace::{BodyId, Dof, Error, Race, Result};
 use serde_json::Value;
 
+use crate::checksum::checksum;
+
 /// Longest list of numbers whose items are parameters; those of a table in time, a profile or a texture are none.
 const LONGEST: usize = 8;
 
@@ -110,14 +112,11 @@ impl Table {
     }
 }
 
-/// The instantiation token of a scene: FNV-1a of its document and of the version.
+/// The instantiation token of a scene: a checksum of its document and of the version.
 fn token(scene: &Scene) -> String {
     let version = env!("CARGO_PKG_VERSION");
-    let mut hash = 0xcbf2_9ce4_8422_2325_u64;
-    for byte in version.bytes().chain(scene.to_json().bytes()) {
-        hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
-    }
-    format!("ballrace {version} {hash:016x}")
+    let sum = checksum(version.bytes().chain(scene.to_json().bytes()));
+    format!("ballrace {version} {sum:016x}")
 }
 
 /// The numbers of a scene by their paths.

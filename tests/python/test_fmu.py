@@ -6,19 +6,23 @@ The long tests build the library with cargo and drive it by FMPy, an importer of
 
 from __future__ import annotations
 
+import json
 import re
 import shutil
 import struct
+import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from importlib.metadata import PackageNotFoundError
 from pathlib import Path
 from typing import Any
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
 
 import ballrace as br
-from ballrace.cli import main
+from ballrace.cli import fmu, main
 from release import ROOT
 from tools import run
 
@@ -38,20 +42,71 @@ def damaged() -> br.Scene:
     return shaft.replace({"defects.crack": br.defects.spall(on="outer_race", width_mm=1.0)})
 
 
-def test_without_the_library_it_says_how_to_build_it(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    file = tmp_path / "scene.toml"
-    file.write_text(scene().to_toml(), encoding="utf-8")
+@pytest.fixture
+def command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., tuple[int, Path]]:
+    """The command in an installation without a library, outside of any repository."""
+    (tmp_path / "scene.toml").write_text(scene().to_toml(), encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(fmu, "_PACKAGED", tmp_path / "none" / fmu._NAME)
+    monkeypatch.setattr(fmu, "distribution", Mock(side_effect=PackageNotFoundError))
     packed = tmp_path / "bearing.fmu"
-    command = ["fmu", str(file), "-o", str(packed), "--library"]
-    assert main([*command, str(tmp_path / "none.so")]) == 2
-    assert "cargo build --release -p ballrace-fmu" in capsys.readouterr().err
+    return lambda *more: (main(["fmu", "scene.toml", "-o", str(packed), *more]), packed)
+
+
+def test_without_the_library_it_says_how_to_build_it(
+    command: Callable[..., tuple[int, Path]], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     other = tmp_path / "other.so"
     other.write_text("no library", encoding="utf-8")
-    assert main([*command, str(other)]) == 2
-    assert f"{other}: no library of ballrace's FMUs" in capsys.readouterr().err
-    assert not packed.exists()
+    for more, message in [
+        (
+            [],
+            "add --build, or build it in ballrace's repository, cargo build --release --locked -p ballrace-fmu",
+        ),
+        (["--build"], f"{tmp_path}: neither ballrace's repository nor its unpacked sdist"),
+        (["--library", "none.so"], "none.so: no such library"),
+        (["--library", str(other)], f"{other}: no library of ballrace's FMUs"),
+    ]:
+        code, packed = command(*more)
+        assert code == 2
+        assert message in capsys.readouterr().err
+        assert not packed.exists()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a shell script stands for cargo")
+def test_build_asks_cargo_in_the_repository(
+    command: Callable[..., tuple[int, Path]], tmp_path: Path, capfd: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:  # fmt: skip
+    """Where cargo says that it has put the library, there it is taken from, whatever the target folder."""
+    repository = tmp_path / "ballrace"
+    (repository / "fmu" / "src").mkdir(parents=True)
+    (repository / "fmu" / "src" / "abi.rs").touch()
+    (repository / "docs").mkdir()
+    (tmp_path / "scene.toml").rename(repository / "docs" / "scene.toml")
+    monkeypatch.chdir(repository / "docs")
+    monkeypatch.setenv("PATH", str(tmp_path / "bin"))
+    assert command("--build")[0] == 2
+    assert f"{repository}: --build needs cargo" in capfd.readouterr().err
+    built = tmp_path / "elsewhere" / fmu._NAME
+    built.parent.mkdir()
+    built.write_text("no library", encoding="utf-8")
+    other = json.dumps({"filenames": [str(tmp_path / "libother.rlib")]})
+    said = json.dumps({"filenames": [str(built)]})
+    cargo = tmp_path / "bin" / "cargo"
+    cargo.parent.mkdir()
+    cargo.write_text(
+        f"#!/bin/sh\n[ \"$4 $5\" = '-p ballrace-fmu' ] && echo '{other}' && echo '{said}' && pwd >&2\n",
+        encoding="utf-8",
+    )
+    cargo.chmod(0o755)
+    assert command("--build")[0] == 2
+    err = capfd.readouterr().err
+    assert err.startswith(f"{repository}\n")
+    assert f"{built}: no library of ballrace's FMUs" in err
+    cargo.write_text("#!/bin/sh\nexit 101\n", encoding="utf-8")
+    assert command("--build")[0] == 2
+    assert "has failed" in capfd.readouterr().err
 
 
 @pytest.fixture(scope="module")
@@ -359,10 +414,63 @@ def test_states_come_back_bit_by_bit(pack: Pack) -> None:
         other.fmu.setFMUState(other.fmu.deserializeFMUState(words))
         other.time = time
         assert shaken(other, range(10, 30)) == first
-        with pytest.raises(Exception, match="fmi3DeserializeFMUState"):
-            fmu.deserializeFMUState(words[: len(words) // 2])
-        assert bearing.log[-1][1].startswith("no state of this FMU")
         fmu.freeFMUState(state)
+
+
+@pytest.mark.long
+def test_a_state_with_a_changed_bit_is_refused(pack: Pack) -> None:
+    """Limits: every byte of it, a bit of each, and what was cut off."""
+    with driven(pack(damaged())) as (bearing,):
+        fmu = bearing.begin().fmu
+        before = bearing.everything()
+        state = fmu.getFMUState()
+        words = fmu.serializeFMUState(state)
+        fmu.freeFMUState(state)
+        changed = [words[: len(words) // 2], words[:-1], words[:5], words + b" "]
+        for at in range(len(words)):
+            bit = 1 << (at % 8)
+            changed.append(words[:at] + bytes([words[at] ^ bit]) + words[at + 1 :])
+        for one in changed:
+            with pytest.raises(Exception, match="fmi3DeserializeFMUState"):
+                fmu.deserializeFMUState(one)
+            assert bearing.log[-1][1].startswith("no state of this FMU")
+        fmu.setFMUState(fmu.deserializeFMUState(words))
+        assert bearing.everything() == before
+
+
+@pytest.mark.long
+def test_phases_are_those_of_the_standard(pack: Pack) -> None:
+    """Literature: FMI 3.0, section 2.3: what ends or steps a simulation needs one that is initialised."""
+    with driven(pack(scene())) as (bearing,):
+        fmu = bearing.fmu
+
+        def refused(call: Callable[[], Any], name: str, where: str) -> None:
+            with pytest.raises(Exception, match=name):
+                call()
+            assert bearing.log[-1][1] == f"{name} may not be called {where}"
+
+        before = "before fmi3EnterInitializationMode"
+        refused(fmu.terminate, "fmi3Terminate", before)
+        refused(fmu.enterStepMode, "fmi3EnterStepMode", before)
+        refused(fmu.exitInitializationMode, "fmi3ExitInitializationMode", before)
+        fmu.enterInitializationMode()
+        refused(fmu.terminate, "fmi3Terminate", "in initialization mode")
+        refused(
+            fmu.enterInitializationMode, "fmi3EnterInitializationMode", "in initialization mode"
+        )
+        fmu.exitInitializationMode()
+        fmu.enterStepMode()
+        bearing.step()
+        last = bearing.everything()
+        fmu.terminate()
+        # What it has computed can still be read.
+        assert bearing.everything() == last
+        refused(fmu.terminate, "fmi3Terminate", "after fmi3Terminate")
+        refused(bearing.step, "fmi3DoStep", "after fmi3Terminate")
+        fmu.reset()
+        bearing.time = 0.0
+        bearing.begin().step()
+        assert bearing.everything() == last
 
 
 @pytest.mark.long
@@ -411,9 +519,6 @@ def test_what_is_refused_is_logged_by_name_and_goes_on(pack: Pack) -> None:
             bearing.fmu.enterEventMode()
         assert bearing.log[-1] == (error, "fmi3EnterEventMode is not offered")
         bearing.step()
-        bearing.fmu.terminate()
-        with pytest.raises(Exception, match="fmi3DoStep"):
-            bearing.step()
     tampered = pack(scene()).parent
     with driven(tampered / "bearing.fmu") as (bearing,):
         file = Path(bearing.fmu.unzipDirectory, "resources", "scene.toml")

@@ -3,11 +3,18 @@
 from __future__ import annotations
 
 import ctypes
+import json
 import platform
+import shutil
+import subprocess
 import sys
 import zipfile
+from contextlib import suppress
+from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path
 from typing import TYPE_CHECKING
+from urllib.parse import urlsplit
+from urllib.request import url2pathname
 
 from .._io.whole import whole
 from ..errors import FileError
@@ -26,6 +33,16 @@ _MACHINES = {"amd64": "x86_64", "arm64": "aarch64"}
 _IDENTIFIER = "ballrace_fmu"
 """Name of the library within an FMU, as its description has it."""
 
+_NAME = (
+    f"{'' if sys.platform == 'win32' else 'lib'}{_IDENTIFIER}{_ENDINGS.get(sys.platform, '.so')}"
+)
+"""Name of its file, as cargo gives it."""
+
+_PACKAGED = Path(__file__).with_name(_NAME)
+"""Where wheels of a release have it."""
+
+_CARGO = ("cargo", "build", "--release", "--locked", "-p", "ballrace-fmu")
+
 _LONG_AGO = (1980, 1, 1, 0, 0, 0)
 """The time of every entry, so that the same scene and library give the same bytes."""
 
@@ -38,29 +55,90 @@ def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:
     )  # fmt: skip
     add_scene(pack)
     pack.add_argument("-o", "--out", type=Path, required=True, metavar="FILE", help="file, .fmu")
-    pack.add_argument(
-        "--library", type=Path, default=_built(), metavar="FILE",
-        help="what `cargo build --release -p ballrace-fmu` has built in the repository (default: %(default)s)",
+    where = pack.add_mutually_exclusive_group()
+    where.add_argument(
+        "--library", type=Path, metavar="FILE",
+        help="shared library to pack (default: the package's, or else what cargo has built in the repository)",
+    )  # fmt: skip
+    where.add_argument(
+        "--build", action="store_true",
+        help=f"build the library first, in ballrace's repository: {' '.join(_CARGO)}",
     )  # fmt: skip
 
 
-def _built() -> Path:
-    """Return where cargo puts the library, from the root of the repository."""
-    prefix = "" if sys.platform == "win32" else "lib"
-    ending = _ENDINGS.get(sys.platform, ".so")
-    return Path("target", "release", f"{prefix}{_IDENTIFIER}{ending}")
+def _library(options: argparse.Namespace) -> Path:
+    """Return the library to pack.
+
+    Raises
+    ------
+    FileError
+        There is none, or it cannot be built.
+    """
+    repository = _repository()
+    if options.build:
+        return _built(repository)
+    if options.library is not None:
+        given: Path = options.library
+        return given
+    places = [_PACKAGED]
+    if repository is not None:
+        places.append(repository / "target" / "release" / _NAME)
+    for place in places:
+        if place.is_file():
+            return place
+    raise FileError(
+        _NAME,
+        "this installation has no library for FMUs, as it was built from source; add --build, or build it in "
+        f"ballrace's repository, {' '.join(_CARGO)}, and give it by --library",
+    )
+
+
+def _repository() -> Path | None:
+    """Return ballrace's repository or unpacked sdist: around us, or what pip has built this installation from."""
+    here = Path.cwd()
+    found = [here, *here.parents]
+    with suppress(PackageNotFoundError):
+        origin = distribution("ballrace").read_text("direct_url.json")
+        url = urlsplit(json.loads(origin)["url"] if origin else "")
+        if url.scheme == "file":
+            found.append(Path(url2pathname(url.path)))
+    return next((folder for folder in found if (folder / "fmu" / "src" / "abi.rs").is_file()), None)
+
+
+def _built(repository: Path | None) -> Path:
+    """Return the library that cargo builds; what it does meanwhile goes to standard error."""
+    if repository is None:
+        raise FileError(
+            str(Path.cwd()),
+            "neither ballrace's repository nor its unpacked sdist, in which --build builds the library",
+        )
+    if shutil.which("cargo") is None:
+        raise FileError(
+            str(repository), "--build needs cargo, which is not installed: see https://rustup.rs"
+        )
+    command = [*_CARGO, "--message-format=json-render-diagnostics"]
+    done = subprocess.run(command, cwd=repository, stdout=subprocess.PIPE, text=True, check=False)
+    if done.returncode != 0:
+        raise FileError(
+            str(repository), f"{' '.join(_CARGO)} has failed; what it said stands above"
+        )
+    messages = [json.loads(line) for line in done.stdout.splitlines()]
+    files = [Path(file) for message in messages for file in message.get("filenames", [])]
+    (library,) = [file for file in files if file.name == _NAME]
+    return library
 
 
 def _fmu(options: argparse.Namespace) -> None:
     scene = read_scene(options.scene).to_toml()
-    description = _described(options.library, scene)
+    library = _library(options)
+    description = _described(library, scene)
     machine = platform.machine().lower()
     system = _SYSTEMS.get(sys.platform, sys.platform)
     folder = f"binaries/{_MACHINES.get(machine, machine)}-{system}"
     ending = _ENDINGS.get(sys.platform, ".so")
     entries = {
         "modelDescription.xml": description.encode(),
-        f"{folder}/{_IDENTIFIER}{ending}": options.library.read_bytes(),
+        f"{folder}/{_IDENTIFIER}{ending}": library.read_bytes(),
         "resources/scene.toml": scene.encode(),
     }
     with whole(options.out) as temporary, zipfile.ZipFile(temporary, "w") as packed:
@@ -80,11 +158,7 @@ def _described(library: Path, scene: str) -> str:
         There is no such library, or it is none of ours; or it refuses the scene.
     """
     if not library.is_file():
-        raise FileError(
-            str(library),
-            "no such library: build it in ballrace's repository, `cargo build --release -p ballrace-fmu`, "
-            f"and give {_built()} there by --library",
-        )
+        raise FileError(str(library), "no such library")
     answers: list[tuple[bool, str]] = []
     answer = ctypes.CFUNCTYPE(None, ctypes.c_bool, ctypes.c_char_p)
     try:
