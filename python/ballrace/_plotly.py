@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from ._libraries import needed
 
 needed("plotly", "a picture", extra="plot")
@@ -28,6 +30,7 @@ __all__ = [
     "Frame",
     "Heatmap",
     "Mesh3d",
+    "Paused",
     "Scatter",
     "Scatter3d",
     "Scatterpolar",
@@ -35,3 +38,13 @@ __all__ = [
     "make_subplots",
     "sample_colorscale",
 ]
+
+
+class Paused(Figure):  # type: ignore[misc]
+    """A figure with frames whose pages begin at rest, as :meth:`show` does; ``auto_play=True`` runs it at once."""
+
+    def to_html(self, *given: Any, auto_play: bool = False, **options: Any) -> Any:
+        return super().to_html(*given, auto_play=auto_play, **options)
+
+    def write_html(self, *given: Any, auto_play: bool = False, **options: Any) -> Any:
+        return super().write_html(*given, auto_play=auto_play, **options)

@@ -14,6 +14,7 @@ from typing import Literal
 
 import numpy as np
 import plotly.graph_objects as go
+import plotly.io as pio
 import polars as pl
 import pytest
 from plotly.subplots import make_subplots
@@ -315,6 +316,65 @@ def test_frames_have_the_balls_where_the_run_has_them(animated: br.Signals) -> N
     lengths = np.hypot(x[:, 1] - x[:, 0], y[:, 1] - y[:, 0])
     np.testing.assert_allclose(lengths / lengths.max(), loads / np.max(loads), atol=1e-3)
     assert last.traces == tuple(range(len(fig.data) - len(last.data), len(fig.data)))
+
+
+def test_balls_of_the_section_keep_their_size(animated: br.Signals) -> None:
+    """In each frame a ball a row at the top and at the bottom, as large as the row's balls."""
+    fig = plot.animation(animated, frames=12)
+    rows = animated.scene.rows
+    for frame in fig.frames:
+        cut = [
+            t
+            for t, of in zip(frame.data, fig.data[-len(frame.data) :], strict=True)
+            if of.xaxis == "x2"
+        ]
+        widths = [float(np.ptp(t.x)) for t in cut]
+        expected = [1e3 * row.ball_diameter for row in rows for _ in range(2)]
+        np.testing.assert_allclose(widths, expected, rtol=1e-6)
+        assert [float(np.mean(t.y)) > 0.0 for t in cut] == [True, False] * len(rows)
+
+
+def test_rings_between_rows_are_steps() -> None:
+    """Between rows that lie apart, what joins them runs along the axis or across it."""
+    shaft = br.presets.motor()
+    z = sorted(1e3 * row.axial_position for row in shaft.rows)
+    for ring in (outlines(shaft).outer, outlines(shaft).inner):
+        edges = np.stack([ring[:-1], ring[1:]], axis=1)
+        middle = edges[:, :, 0].mean(axis=1)
+        reach = 2e3 * max(row.ball_diameter for row in shaft.rows)
+        between = edges[(middle > z[0] + reach) & (middle < z[1] - reach)]
+        assert len(between) >= 3
+        assert (np.abs(between[:, 0] - between[:, 1]).min(axis=1) < 1e-9).all()
+
+
+def test_animations_stand_until_they_are_run(animated: br.Signals, tmp_path: Path) -> None:
+    for fig in (plot.animation(animated, frames=3), plot.animation3d(animated, frames=3)):
+        shown = pio.renderers["notebook"].to_mimebundle(fig.to_dict())["text/html"]
+        fig.write_html(tmp_path / "page.html", include_plotlyjs=False)
+        page = (tmp_path / "page.html").read_text(encoding="utf-8")
+        for text in (shown, page, fig.to_html(include_plotlyjs=False)):
+            assert "Plotly.addFrames" in text
+            assert "Plotly.animate" not in text
+        assert "Plotly.animate" in fig.to_html(include_plotlyjs=False, auto_play=True)
+
+
+def test_the_best_band_has_power() -> None:
+    """What a filter leaves above its edge is impulsive at times; of a constant there is no band at all."""
+    fs, rng = 16_000.0, np.random.default_rng(1)
+    t = np.arange(32_000) / fs
+    passed = np.fft.rfft(rng.normal(size=t.size)) * (np.fft.rfftfreq(t.size, 1.0 / fs) < 3000.0)
+    whisper = 3e-3 * np.sin(2.0 * np.pi * 6000.0 * t) * (t % 0.1 < 1e-3)
+    found = br.spectra.kurtogram(np.fft.irfft(passed) + whisper, fs, narrowest=500.0)
+    loudest = int(np.argmax(found.kurtosis))
+    assert found.low[loudest] < 6000.0 < found.high[loudest]
+    assert not found.has_power[found.low >= 3000.0].any()
+    assert found.best[0] < 3000.0
+    assert found.highest < 0.5
+    assert found.kurtosis[loudest] > 2.0
+    assert f"{found.highest:.2f}" in plot.kurtogram(found).layout.annotations[0].text
+    silent = plot.kurtogram(np.full(2000, 0.1), fs=fs)
+    assert silent.layout.annotations[0].text.startswith("no band has power")
+    assert not silent.layout.shapes
 
 
 def test_slices_of_a_run(out: br.Signals) -> None:

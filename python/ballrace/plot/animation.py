@@ -56,7 +56,8 @@ def animation(
     """Draw a bearing as it runs: a row from the front, the section through the axis, a signal with the time.
 
     Balls are shaded by their load on the outer race, which bars beyond the race show as well; the cage is drawn
-    between the balls, defects turn with what carries them. In the section, balls are cut by the plane.
+    between the balls, defects turn with what carries them. In the section stand the balls that are nearest to it.
+    A page or a notebook shows the first picture until it is told to run.
 
     Parameters
     ----------
@@ -148,10 +149,10 @@ def samples(out: Signals, start: float, end: float | None, frames: int) -> list[
 
 
 def _panels() -> go.Figure:
-    from .._plotly import make_subplots
+    from .._plotly import Paused, make_subplots
 
     return make_subplots(
-        rows=2, cols=2, specs=[[{}, {}], [{"colspan": 2}, None]], column_widths=[0.62, 0.38],
+        figure=Paused(), rows=2, cols=2, specs=[[{}, {}], [{"colspan": 2}, None]], column_widths=[0.62, 0.38],
         row_heights=[0.72, 0.28], vertical_spacing=0.12, horizontal_spacing=0.04,
         subplot_titles=("front view", "section"),
     )  # fmt: skip

@@ -33,7 +33,8 @@ def animation3d(
 
     Patches of contact are ellipses after Hertz, coloured by their largest pressure and drawn enlarged. A spot on
     each ball shows how it rolls, about the bearing's axis also where it spins freely. Drag to turn the bearing,
-    also while it runs. Written by :func:`write`, 200 frames of a row of 13 balls or fewer take less than 6 MB.
+    also while it runs; it stands until it is told to. Written by :func:`write`, 200 frames of a row of 13 balls or
+    fewer take less than 6 MB.
 
     Parameters
     ----------
@@ -68,7 +69,7 @@ def animation3d(
     >>> len(fig.frames)
     20
     """
-    from .._plotly import Figure, Frame
+    from .._plotly import Frame, Paused
 
     check(out, "inner.theta", row, frames)
     if not 1.0 <= real(enlarged) <= 20.0:
@@ -76,7 +77,7 @@ def animation3d(
     shown = samples(out, start, end, frames)
     t = 1e3 * out.t
     turning = Turning(out, row, enlarged)
-    fig = fig if fig is not None else Figure()
+    fig = fig if fig is not None else Paused()
     fig.add_traces(list(turning.still()))
     first = len(fig.data)
     fig.add_traces(turning.first(shown[0]))

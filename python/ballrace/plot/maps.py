@@ -307,11 +307,15 @@ def kurtogram(
     )  # fmt: skip
     fig.add_trace(heatmap)
     low, high = found.best
-    at = int(np.searchsorted(levels, found.level[int(np.argmax(found.kurtosis))]))
-    fig.add_shape(
-        type="rect", x0=low, x1=high, y0=at - 0.5, y1=at + 0.5, line={"color": "#c8452f", "width": 3}
-    )  # fmt: skip
-    text = f"best band: {low:.0f} to {high:.0f} Hz,<br>kurtosis {found.highest:.2f}"
+    if found.has_power.any():
+        own = found.level[(found.low == low) & (found.high == high)]
+        at = int(np.searchsorted(levels, own[0]))
+        fig.add_shape(
+            type="rect", x0=low, x1=high, y0=at - 0.5, y1=at + 0.5, line={"color": "#c8452f", "width": 3}
+        )  # fmt: skip
+        text = f"best band: {low:.0f} to {high:.0f} Hz,<br>kurtosis {found.highest:.2f}"
+    else:
+        text = "no band has power:<br>the signal is constant"
     fig.add_annotation(
         text=text, x=0.0, y=1.02, xref="x domain", yref="y domain", xanchor="left", yanchor="bottom",
         align="left", showarrow=False,

@@ -25,6 +25,9 @@ if TYPE_CHECKING:
 
 __all__ = ["ball_path", "orbit"]
 
+_LONGEST = 10_000
+"""Samples of an orbit that are drawn; of more, one could see no path."""
+
 
 def orbit(
     out: Columns,
@@ -34,7 +37,9 @@ def orbit(
     fig: go.Figure | None = None,
     **layout: Any,
 ) -> go.Figure:
-    """Draw the path of the shaft's centre in the plane of the bearing.
+    """Draw the orbit: the path of the shaft's centre in the plane of the bearing.
+
+    Every sample is drawn, of a long run those of its end.
 
     Parameters
     ----------
@@ -69,20 +74,21 @@ def orbit(
     seen = relative and "outer.x" in out and "outer.y" in out
     if seen:
         x, y = x - out["outer.x"][kept], y - out["outer.y"][kept]
-    every = max(1, x.size // 5000)
+    x, y = x[-_LONGEST:], y[-_LONGEST:]
+    part = f", last {x.size / out.fs:.3g} s" if x.size < kept.sum() else ""
     fig = fig if fig is not None else Figure()
-    line = {"color": COLOURS[0], "width": 1}
-    way = Scatter(
-        x=1e6 * x[::every], y=1e6 * y[::every], mode="lines", line=line, name="way of the shaft"
+    line = {"color": COLOURS[0], "width": 1, "shape": "spline"}
+    path = Scatter(
+        x=1e6 * x, y=1e6 * y, mode="lines", line=line, name=f"path of the shaft's centre{part}"
     )
     start = Scatter(
         x=[1e6 * x[0]], y=[1e6 * y[0]], mode="markers", name="start",
         marker={"symbol": "diamond", "size": 10, "color": COLOURS[1]},
     )  # fmt: skip
-    fig.add_traces([way, start])
+    fig.add_traces([path, start])
     where = " from the outer ring's centre" if seen else ""
     fig.update_xaxes(title_text=f"horizontal{where} / µm")
-    fig.update_yaxes(title_text="vertical / µm", scaleanchor="x")
+    fig.update_yaxes(title_text=f"vertical{where} / µm", scaleanchor="x")
     return finished(fig, layout, height=460, showlegend=True)
 
 

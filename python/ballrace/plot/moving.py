@@ -175,14 +175,12 @@ class Moving:
         return _mark((0.0, 0.0), radius, defect.angle + turned, half, name)
 
     def _cut(self, row: int, half: float, k: int) -> Any:
-        """Cut the ball that is nearest to the plane, at the top or at the bottom; between two there is none."""
+        """Draw the ball that is nearest to the plane at the top or at the bottom, turned into it."""
         places = self._places[row][:, :, k]
         near = np.where(half * places[:, 1] > 0.0, np.abs(places[:, 0]), np.inf)
         ball = int(np.argmin(near))
-        square = (0.5e3 * self._scene.rows[row].ball_diameter) ** 2 - near[ball] ** 2
-        if not square > 0.0:
-            return _filled(np.zeros(1), np.zeros(1), "#ffffff")
-        ring = circle(places[ball, 2], places[ball, 1], math.sqrt(square))[::3]
+        radius = half * math.hypot(places[ball, 0], places[ball, 1])
+        ring = circle(places[ball, 2], radius, 0.5e3 * self._scene.rows[row].ball_diameter)[::3]
         return _filled(ring[:, 0], ring[:, 1], self._shade(self._loads[row][ball, k]))
 
 

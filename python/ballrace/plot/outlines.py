@@ -120,11 +120,16 @@ def circle(z: float, radius: float, size: float) -> Array:
 def _ring(
     rows: list[Row], race: Literal["outer", "inner"], edge: float, left: float, right: float
 ) -> Array:
-    """Return a ring: its grooves from left to right, joined by its shoulders, and closed around its edge."""
-    line = []
+    """Return a ring: its grooves from left to right, shoulders that step midway, and closed around its edge."""
+    line: list[Array] = []
     for row in rows:
         low, high = getattr(row, f"{race}_shoulders") or _ends(row, race)
-        line.append(groove(row, race, np.linspace(low, high, 41)))
+        of_row = groove(row, race, np.linspace(low, high, 41))
+        if line:
+            (before, low_radius), (after, high_radius) = line[-1][-1], of_row[0]
+            middle = 0.5 * (before + after)
+            line.append(np.array([[middle, low_radius], [middle, high_radius]]))
+        line.append(of_row)
     running = np.vstack(line)
     running = running[(running[:, 0] >= left) & (running[:, 0] <= right)]
     ends = [[left, running[0, 1]], *running.tolist(), [right, running[-1, 1]]]

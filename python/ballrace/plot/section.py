@@ -84,9 +84,9 @@ def section(
         _defect(fig, scene.rows[defect.row], defect, name)
     _loads(fig, scene, shapes)
     room = 0.65 * (shapes.right - shapes.left)
-    fig.update_xaxes(title_text="z, along the axis / mm", zeroline=False, showgrid=False,
+    fig.update_xaxes(title_text="z, along the axis / mm", zeroline=False, showgrid=False, constrain="domain",
                      range=[shapes.left - room, shapes.right + room])  # fmt: skip
-    fig.update_yaxes(title_text="y / mm", scaleanchor="x", zeroline=False, showgrid=False,
+    fig.update_yaxes(title_text="y / mm", scaleanchor="x", zeroline=False, showgrid=False, constrain="domain",
                      range=[-1.24 * shapes.outside, 1.24 * shapes.outside])  # fmt: skip
     return finished(fig, layout, height=620, showlegend=False)
 

@@ -42,6 +42,12 @@ _FEWEST = 64
 _SILENT = 1e-24
 """Part of the largest power below which there is rounding alone."""
 
+_FAINT = 1e-6
+"""Density of power over the mean density below which a band is empty: what a filter or a converter leaves."""
+
+_OWN = 0.1
+"""Least share of what a band's filter lets through that is of the band itself, where it has power."""
+
 _DRAWN = 20_000
 """Kurtoses of noise that the limit of chance is computed from, at least."""
 
@@ -58,23 +64,33 @@ class Kurtogram:
         Edges of the band [Hz].
     kurtosis : ndarray
         Kurtosis of the complex envelope in the band: 0 for Gaussian noise, −1 for a tone.
+    has_power : ndarray of bool
+        Whether the signal has power in the band: a density above −60 dB of its mean, and a tenth of what the
+        filters let through. In other bands the kurtosis is that of rounding or of neighbours.
     """
 
     level: NDArray[np.float64]
     low: NDArray[np.float64]
     high: NDArray[np.float64]
     kurtosis: NDArray[np.float64]
+    has_power: NDArray[np.bool_]
 
     @property
     def best(self) -> tuple[float, float]:
-        """Edges of the band with the highest kurtosis [Hz]: the ``band`` of an envelope."""
-        at = int(np.argmax(self.kurtosis))
-        return float(self.low[at]), float(self.high[at])
+        """Edges of the band with the highest kurtosis [Hz] of those with power: the ``band`` of an envelope.
+
+        Where none has power, it is that of all frequencies.
+        """
+        return float(self.low[self._at]), float(self.high[self._at])
 
     @property
     def highest(self) -> float:
         """The highest kurtosis, that of the best band."""
-        return float(self.kurtosis.max())
+        return float(self.kurtosis[self._at])
+
+    @property
+    def _at(self) -> int:
+        return int(np.argmax(np.where(self.has_power, self.kurtosis, -np.inf)))
 
 
 @answers_ctrl_c
@@ -126,9 +142,12 @@ def kurtogram(x: Given, fs: float | None = None, narrowest: float | None = None)
     parts = min(signal.size / 2 / _FEWEST, math.inf if narrowest is None else fs / 2 / narrowest)
     # The middle of 0 to fs/2 is moved to zero, and every other sample then holds all.
     middle = np.exp(-0.5j * math.pi * np.arange(signal.size))
-    whole = (hilbert(signal - signal.mean()) * middle)[::2]
+    varying = signal - signal.mean()
+    if not np.abs(varying).max() > math.sqrt(_SILENT) * np.abs(signal).max():
+        varying = np.zeros_like(signal)
+    whole = (hilbert(varying) * middle)[::2]
     rows = [(1, [whole]), *_levels([whole], 1, parts)]
-    return _collected(sorted(rows, key=lambda row: row[0]), fs)
+    return _collected(sorted(rows, key=lambda row: row[0]), fs, varying)
 
 
 @answers_ctrl_c
@@ -235,7 +254,9 @@ def _split(band: Complex, parts: int) -> list[Complex]:
     return found
 
 
-def _collected(rows: list[tuple[int, list[Complex]]], fs: float) -> Kurtogram:
+def _collected(
+    rows: list[tuple[int, list[Complex]]], fs: float, signal: NDArray[np.float64]
+) -> Kurtogram:
     counts = np.array([count for count, bands in rows for _ in bands])
     place = np.array([place for _, bands in rows for place in range(len(bands))])
     return Kurtogram(
@@ -243,7 +264,26 @@ def _collected(rows: list[tuple[int, list[Complex]]], fs: float) -> Kurtogram:
         low=place / counts * (fs / 2.0),
         high=(place + 1) / counts * (fs / 2.0),
         kurtosis=np.array([_kurtosis(band) for _, bands in rows for band in bands]),
+        has_power=_has_power(rows, counts, place, signal),
     )
+
+
+def _has_power(
+    rows: list[tuple[int, list[Complex]]],
+    counts: NDArray[np.int64],
+    place: NDArray[np.int64],
+    signal: NDArray[np.float64],
+) -> NDArray[np.bool_]:
+    """Compare the power of each band in the signal's spectrum with what the filters let through."""
+    # Of the largest, so that powers of faint signals do not vanish.
+    largest = float(np.abs(rows[0][1][0]).max(initial=0.0)) or 1.0
+    power = np.abs(np.fft.rfft(signal / largest * np.hanning(signal.size))) ** 2
+    until = np.append(0.0, np.cumsum(power))
+    edges = [np.rint((place + side) / counts * power.size).astype(int) for side in (0, 1)]
+    own = (until[edges[1]] - until[edges[0]]) / (until[-1] or 1.0)
+    passed = np.array([np.mean(np.abs(z / largest) ** 2) for _, bands in rows for z in bands])
+    found: NDArray[np.bool_] = (own > _FAINT / counts) & (own > _OWN * passed / (passed[0] or 1.0))
+    return found
 
 
 def _kurtosis(z: Complex) -> float:
