@@ -12,19 +12,20 @@ from ..statics import Equilibrium, LoadDistribution, equilibrium, load_distribut
 from . import words
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from ..scene import Scene
     from .page import Page
 
 __all__ = ["add_bearing", "add_loads"]
 
 
-def add_bearing(page: Page, scene: Scene) -> None:
-    """Add a drawing of the bearing and its measures."""
+def add_bearing(page: Page, scene: Scene, operation: Sequence[tuple[str, str]]) -> None:
+    """Add the measures of the bearing with facts of its operation, and a drawing of it."""
     from .. import plot
     from ..plot.outlines import outlines
 
-    page.section("The bearing")
-    page.facts(words.bearing(scene))
+    page.facts([*words.bearing(scene), *operation])
     assumed = (
         " Its boundary dimensions are not given, and drawn as common."
         if outlines(scene).assumed
@@ -40,7 +41,7 @@ def add_loads(page: Page, scene: Scene) -> None:
     """Add the loads of the balls, pressures, and rating life; or why there are none."""
     from .. import plot
 
-    page.section("Loads, pressures and life")
+    page.section("Ball loads, contact pressure and rating life")
     healthy = scene.replace({"defects": {}})
     try:
         eq, around = equilibrium(healthy), load_distribution(scene)
@@ -50,15 +51,7 @@ def add_loads(page: Page, scene: Scene) -> None:
     page.text(
         "At rest in the cage's frame, without defects, under the loads at their first instant."
     )
-    page.figure(
-        plot.load_distribution(around), "load of a ball on the outer race wherever it stands."
-    )
-    for row in range(len(scene.rows)):
-        caption = (
-            "contacts on both races, unrolled, with their forces; defects in red with their names."
-        )
-        name = f" Row {row}." if len(scene.rows) > 1 else ""
-        page.figure(plot.unrolled(scene, eq, row=row), caption + name)
+    page.figure(plot.load_distribution(around), "load of a ball on the outer race over its place.")
     _add_pressures(page, eq, len(scene.rows))
     _add_life(page, scene, around)
 

@@ -25,19 +25,17 @@ def run_page(
     names = chosen(out, columns)
     scene = out.scene
     page = Page(title or scene.name or "A bearing")
-    add_verdict(page, out, names)
-    page.text(
-        f"{out.n_samples} samples at {out.fs:g} Hz, {out.n_samples / out.fs:.4g} s of simulated time."
-    )
+    decided = add_verdict(page, out, names)
     for warning in out.warnings:
         page.warning(warning)
-    add_bearing(page, scene)
-    page.section("Operating point")
-    page.facts(words.operation(scene))
+    page.section("Simulated bearing and operating point")
+    record = f"{out.n_samples / out.fs:.4g} s, {out.n_samples} samples at {out.fs:g} Hz"
+    add_bearing(page, scene, [*words.operation(scene), ("Record", record)])
+    page.section("Defect frequencies")
     _add_frequencies(page, out)
-    add_loads(page, scene)
     for name in names:
-        add_signal(page, out, name)
+        add_signal(page, out, name, decided.get(name))
+    add_loads(page, scene)
     add_features(page, out, names)
     _add_defects(page, out)
     add_model(page, out)
@@ -54,7 +52,9 @@ def _add_frequencies(page: Page, out: Signals) -> None:
     for row in range(len(out.scene.rows)):
         found = rates_of(out, None, row)
         if found is None:
-            page.text("No constant speed: fault frequencies stand at their orders.")
+            page.text(
+                "The speed is not constant: defects show at their orders, over turns of the shaft."
+            )
             return
         ball = fault_rate(found, "ball", spin_of(out.scene, found, row))
         rings = [found.shaft] if out.scene.outer_speed is None else [found.inner, found.outer]
@@ -63,7 +63,7 @@ def _add_frequencies(page: Page, out: Signals) -> None:
             [f"{row}", words.degrees(found.contact_angle), *(words.number(f) for f in hertz)]
         )
     page.text(
-        "Fault frequencies at the contact angle under load. A ball's defect is hit twice a turn, at 2·BSF; one "
+        "At the contact angle under load. A ball's defect is hit twice a turn, at 2·BSF; one "
         "of a ball whose axis the model holds at BSF/cos α, or twice that where it reaches both races."
     )
     turning = ["shaft"] if out.scene.outer_speed is None else ["inner ring", "outer ring"]
@@ -75,7 +75,7 @@ def _add_defects(page: Page, out: Signals) -> None:
     met = out.defects if "defects" in out.provenance else {}
     if not met:
         return
-    page.section("What became of the defects")
+    page.section("Passes over the defects")
     rows = [
         [
             name,
@@ -102,7 +102,7 @@ def _add_defects(page: Page, out: Signals) -> None:
 
 def add_model(page: Page, out: Signals) -> None:
     """Add what the model holds, and what it left out."""
-    page.section("What the model held, and what it left out")
+    page.section("Model and its simplifications")
     page.facts(words.model(out.scene))
     left = out.provenance.to_dict().get("left_out", [])
     if left:
@@ -129,7 +129,7 @@ _STATISTICS = {
 
 def add_provenance(page: Page, out: Signals) -> None:
     """Add what made the signals, and the scene itself."""
-    page.section("Provenance")
+    page.section("Settings and effort of the simulation")
     rows = []
     for record, names in ((out.provenance, _PROVENANCE), (out.stats, _STATISTICS)):
         known = record.to_dict()

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
-from .. import spectra
+import numpy as np
+
 from ..errors import BallraceError, SceneError
+from ..plot.decimation import min_max
 from ..scene.turning import relative_speed
 from . import words
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
+
+    import plotly.graph_objects as go
 
     from ..signals import Signals
     from .page import Page
@@ -39,44 +44,47 @@ def chosen(out: Signals, columns: Sequence[str] | None) -> tuple[str, ...]:
     return tuple((preferred or accelerations or list(out.names))[:1])
 
 
-def add_signal(page: Page, out: Signals, name: str) -> None:
-    """Add a signal over time with expected hits, its envelope spectrum with lines, and where its energy lies."""
+def add_signal(
+    page: Page, out: Signals, name: str, decided: tuple[float, float] | None = None
+) -> None:
+    """Add a signal over time with expected hits, its envelope spectrum with lines, and its spectral density.
+
+    The envelope is of the band in which a verdict was decided [Hz], else of all frequencies.
+    """
     from .. import plot
     from ..plot.style import words as in_words
 
-    page.section(f"Signal: {in_words(name)}")
-    if relative_speed(out.scene) is None:
-        page.figure(plot.signals(out, name), "the signal over time; the speed changes.")
+    page.section(f"Vibration: {in_words(name)}")
+    speed = relative_speed(out.scene)
+    if speed is None:
+        page.figure(_thinned(plot.signals(out, name)), "signal over time; the speed changes.")
         _add_order_map(page, out, name)
         return
     if out.n_samples < _SHORT:
-        page.figure(plot.signals(out, name), "the signal over time.")
+        page.figure(_thinned(plot.signals(out, name)), "signal over time.")
         page.text(f"{out.n_samples} samples are too few for spectra.")
         return
-    hits = "marks where hits of a defect are expected, one period apart at the operating contact angle."
-    page.figure(plot.impacts(out, name), f"the signal over time; {hits}")
-    _add_spectra(page, out, name)
-
-
-def _add_spectra(page: Page, out: Signals, name: str) -> None:
-    from .. import plot
-
-    turns = out.n_samples / out.fs * abs(relative_speed(out.scene) or 0.0) / 6.2832
-    found = spectra.kurtogram(out[name], out.fs, narrowest=min(out.fs / 8.0, 2000.0))
-    page.figure(
-        plot.envelope_spectrum(out, name),
-        f"spectrum of the squared envelope, over {turns:.1f} turns of the shaft, with the lines of defects.",
+    hits = "marks where a defect is expected to be hit, a period apart at the contact angle under load."
+    page.figure(_thinned(plot.impacts(out, name)), f"signal over time; {hits}")
+    turns = out.n_samples / out.fs * abs(speed) / (2.0 * math.pi)
+    of = (
+        "of all frequencies"
+        if decided is None
+        else f"of {decided[0]:.0f} to {decided[1]:.0f} Hz, where the verdict was decided"
     )
     page.figure(
-        plot.kurtogram(found),
-        "kurtosis of bands of the signal; where it is high, single hits stand out. A simulated signal has no "
-        "noise, so a band with next to no power may win: see the power spectral density.",
+        plot.envelope_spectrum(out, name, band=decided),
+        f"spectrum of the squared envelope {of}, over {turns:.1f} turns of the shaft, with the lines of defects.",
     )
-    low, high = found.best
-    best = f"spectrum of the squared envelope in the kurtogram's best band, {low:.0f} to {high:.0f} Hz."
-    page.figure(plot.envelope_spectrum(out, name, band=found.best), best)
-    page.figure(plot.psd(out, name, band=found.best), "power spectral density.")
-    page.figure(plot.spectrogram(out, name), "power in time, in decibels under its largest value.")
+    page.figure(_thinned(plot.psd(out, name, band=decided)), "power spectral density.")
+
+
+def _thinned(fig: go.Figure) -> go.Figure:
+    """Leave each line of a figure no more points than paper and screens show."""
+    for line in fig.data:
+        if line.mode == "lines":
+            line.x, line.y = min_max(np.asarray(line.x), np.asarray(line.y))
+    return fig
 
 
 def _add_order_map(page: Page, out: Signals, name: str) -> None:
@@ -106,7 +114,7 @@ def add_features(page: Page, out: Signals, names: Sequence[str]) -> None:
     accelerations = [name for name in names if out.units[name] == "m/s^2"]
     if not accelerations:
         return
-    page.section("Features")
+    page.section("Characteristic values")
     found = out.features(columns=accelerations)
     for name in accelerations:
         shape = [(what, _with_error(found, f"{name}.{key}")) for key, what in _FEATURES.items()]

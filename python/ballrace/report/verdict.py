@@ -17,8 +17,14 @@ if TYPE_CHECKING:
 __all__ = ["add_verdict"]
 
 
-def add_verdict(page: Page, out: Signals, names: Sequence[str]) -> None:
-    """Add what :func:`ballrace.diagnose` says of the first acceleration, or why it says nothing."""
+def add_verdict(page: Page, out: Signals, names: Sequence[str]) -> dict[str, tuple[float, float]]:
+    """Add what :func:`ballrace.diagnose` says of the first acceleration, or why it says nothing.
+
+    Returns
+    -------
+    dict
+        The band in which it was decided [Hz], by the signal's name; empty where nothing was.
+    """
     from ..diagnosis import diagnose
     from ..diagnosis.result import capital, headline, reason, width_of
     from ..plot.style import words as in_words
@@ -26,17 +32,19 @@ def add_verdict(page: Page, out: Signals, names: Sequence[str]) -> None:
     accelerations = (name for name in (*names, *chosen(out, None)) if out.units[name] == "m/s^2")
     column = next(accelerations, None)
     lacking = _lacking(out, column)
+    if not lacking:
+        try:
+            found = diagnose(out, column=column)
+        except BallraceError as error:
+            lacking = str(error)
     if lacking:
+        page.section("Verdict")
         page.text(f"No verdict: {lacking}.")
-        return
+        return {}
     assert column is not None
-    try:
-        found = diagnose(out, column=column)
-    except BallraceError as error:
-        page.text(f"No verdict: {error}.")
-        return
+    page.section(f"Verdict: {headline(found)}")
     width = f" {capital(width_of(found))}." if found.width.part else ""
-    page.text(f"Verdict: {headline(found)}. {capital(reason(found))}.{width}")
+    page.text(f"{capital(reason(found))}.{width}")
     page.text(
         f"It rests on one signal, {in_words(column)}. Its evidence has a page of its own: "
         f'br.diagnose(out, column="{column}").report("diagnosis.html").'
@@ -44,6 +52,8 @@ def add_verdict(page: Page, out: Signals, names: Sequence[str]) -> None:
     for note in found.notes:
         if note not in out.warnings:
             page.text(f"{capital(note)}.")
+    surest = max(found.evidence.values(), key=lambda one: one.z, default=None)
+    return {} if surest is None else {column: surest.band}
 
 
 def _lacking(out: Signals, column: str | None) -> str:
