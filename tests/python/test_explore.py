@@ -21,7 +21,7 @@ from ballrace.explore import at_rest, beside, chosen, saved, sensor
 from ballrace.explore.controls import controls, taken
 from ballrace.explore.live import Live, solved
 from ballrace.explore.picture import pictures
-from ballrace.explore.running import Runner
+from ballrace.explore.running import Forecast, Runner
 from ballrace.explore.settings import Settings
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -225,6 +225,20 @@ def test_a_run_that_waits_is_replaced_before_it_begins(begun: Settings) -> None:
     assert (waiting.state, waiting.share) == ("stopped", 0.0)
 
 
+def test_the_newest_scene_is_forecast(begun: Settings) -> None:
+    forecast, scenes = Forecast(), [begun.moved(radial_load=500.0 + k).scene() for k in range(3)]
+    assert forecast.seconds(None) is None
+    for scene in scenes:
+        forecast.ask(scene)
+    until = time.monotonic() + 60.0
+    while forecast.seconds(scenes[-1]) is None and time.monotonic() < until:
+        time.sleep(0.05)
+    seconds = forecast.seconds(scenes[-1])
+    assert seconds is not None
+    assert 0.01 < seconds < 60.0
+    assert forecast.seconds(scenes[0]) is None
+
+
 def test_a_run_that_fails_says_why() -> None:
     scene = br.bearing("6205", speed_rpm=1800.0).replace({"loads.radial.force": 1e9})
     run = Runner().start(scene, duration=0.01)
@@ -281,6 +295,7 @@ def record(spalled: br.Signals, tmp_path: Path, name: str = "record.csv") -> byt
 
 def test_a_dropped_record_gets_the_verdict_of_diagnose(spalled: br.Signals, tmp_path: Path) -> None:
     dropped = beside.received("pump <3>.csv", record(spalled, tmp_path))
+    assert dropped.record.source == "pump <3>.csv"
     channel, found = beside.judged(dropped, "a", spalled.scene, speed_rpm=None, unit=None)
     healthy = spalled.scene.replace({"defects": {}})
     alone = br.diagnose(channel, healthy, 1800.0)
@@ -361,7 +376,7 @@ def test_a_saved_notebook_runs_and_does_what_the_page_did(begun: Settings) -> No
 
 
 def test_a_saved_report_is_that_of_the_run(spalled: br.Signals) -> None:
-    assert b"Loads, pressures and life" in saved.report(spalled)
+    assert b"Ball loads, contact pressure and rating life" in saved.report(spalled)
 
 
 def test_the_command_refuses_what_cannot_be_shown(tmp_path: Path) -> None:

@@ -223,7 +223,7 @@ def test_a_run_its_sound_and_its_files(browser: Browser, explored: Page) -> None
         scene = br.Scene.from_toml(saved(page, "Scene").decode())
         assert scene.defects["damage"].on == "outer_race"
         assert json.loads(saved(page, "Notebook"))["nbformat"] == 4
-        assert b"Loads, pressures and life" in saved(page, "Report of the run")
+        assert b"Ball loads, contact pressure and rating life" in saved(page, "Report of the run")
         # A louder sensor changes the run's figures and needs no new run.
         typed(page, "noise", "15")
         page.wait_for_selector(f'audio:not([src="{source}"])', state="attached")
@@ -286,6 +286,65 @@ def test_it_begins_with_a_scene_or_a_record(browser: Browser, tmp_path: Path) ->
         page.wait_for_selector("text=/6205: damaged, outer race/")
         page.wait_for_selector("rect.damage")
         page.wait_for_selector(".facts:has-text('oil film, ')")
+
+
+def test_a_run_is_offered_with_its_time_above_the_fold(browser: Browser, explored: Page) -> None:
+    """Highlighted, as to stop is not; the time follows the simulated time."""
+    for width in (390, 1400):
+        with shown(browser, explored, width) as (page, _):
+            run, stop = (page.get_by_role("button", name=n, exact=True) for n in ("Run", "Stop"))
+            box = run.bounding_box()
+            assert box["y"] + box["height"] < 844.0
+            colours = [
+                each.evaluate("e => getComputedStyle(e).backgroundColor") for each in (run, stop)
+            ]
+            least, largest = zip(*([min(c), max(c)] for c in map(channels, colours)), strict=True)
+            assert largest[0] - least[0] > 60
+            assert largest[1] - least[1] < 20
+            page.wait_for_selector("text=/A run of 0.4 s takes some [0-9.]+ s/")
+    with shown(browser, explored) as (page, _):
+        typed(page, "simulated time", "2")
+        page.wait_for_selector("text=/A run of 2 s takes some [0-9.]+ s/")
+
+
+def channels(colour: str) -> list[float]:
+    """Red, green and blue of a colour as a browser writes it."""
+    return [float(each) for each in re.findall(r"[\d.]+", colour)[:3]]
+
+
+def test_fields_have_plain_names(browser: Browser, explored: Page) -> None:
+    """As a screen reader has them: words without tags."""
+    with shown(browser, explored) as (page, _):
+        tree = page.context.new_cdp_session(page).send("Accessibility.getFullAXTree")["nodes"]
+    named = [
+        (n["role"]["value"], n["name"]["value"]) for n in tree if n.get("name", {}).get("value")
+    ]
+    fields = [name for role, name in named if role in {"slider", "textbox", "combobox", "switch"}]
+    assert {"radial load / N", "radial load / N value input", "damage on", "run when idle"} <= set(
+        fields
+    )
+    assert len(fields) > 25
+    assert not [name for _, name in named if "<" in name]
+
+
+def test_all_drawings_are_in_sight_while_a_slider_moves_on_a_phone(
+    browser: Browser, explored: Page
+) -> None:
+    with shown(browser, explored, 390) as (page, _):
+        for label in ("radial load", "noise"):
+            before = everything(page)
+            thumb = slider(page, label).get_by_role("slider")
+            thumb.focus()
+            page.keyboard.press("ArrowRight")
+            if label == "radial load":
+                changed(page, before)
+            low = slider(page, label).bounding_box()["y"]
+            boxes = [svg.bounding_box() for svg in page.locator(".pictures svg").all()]
+            assert len(boxes) == 3
+            for box in boxes:
+                assert box["x"] >= 0.0
+                assert box["x"] + box["width"] <= 390.0
+                assert 0.0 <= box["y"] <= box["y"] + box["height"] <= low
 
 
 @pytest.mark.parametrize("width", [390, 1400])

@@ -273,7 +273,5 @@ def test_every_scene_that_runs_has_a_report(name: str, duration: float, tmp_path
     text = text_of(tmp_path / "r.html")
     assert "Settings and effort of the simulation" in text
     why = NO_VERDICT.get(name, "record = an array of shape" if duration < 1e-3 else "")
-    begin = (
-        f"No verdict: {why}" if why else "Verdict: undecided What would decide: a longer record"
-    )
+    begin = f"No verdict: {why}" if why else "Verdict: undecided What would decide: a longer record"
     assert begin in text.partition(" samples at ")[0]

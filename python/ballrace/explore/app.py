@@ -22,8 +22,8 @@ def parts():
     from ballrace._text import printable
     from ballrace.errors import BallraceError
     from ballrace.explore import at_rest, beside, chosen, live, picture, saved, sensor
-    from ballrace.explore.controls import controls, taken
-    from ballrace.explore.running import Runner
+    from ballrace.explore.controls import controls, named, taken
+    from ballrace.explore.running import Forecast, Runner
     from ballrace.explore.settings import DAMAGE, SURFACES, Settings
     from ballrace.plot.style import CONFIG as ALONE
 
@@ -43,8 +43,8 @@ def parts():
     file = Path(given) if given else None
     opened = None if file is None else chosen.read_file(file)
     return (
-        BallraceError, CONFIG, DAMAGE, Runner, SURFACES, Settings, at_rest, beside, br, chosen, controls, escape,
-        file, live, mo, opened, picture, refused, said, saved, sensor, taken,
+        BallraceError, CONFIG, DAMAGE, Forecast, Runner, SURFACES, Settings, at_rest, beside, br, chosen, controls,
+        escape, file, live, mo, named, opened, picture, refused, said, saved, sensor, taken,
     )  # fmt: skip
 
 
@@ -69,13 +69,15 @@ def moving(mo):
 
 
 @app.cell
-def bearing(mo, opened, set_sizes, writing):
+def bearing(mo, named, opened, set_sizes, writing):
     """Choose or describe the bearing."""
     ways = {"by the name on its box": "name", "by its size": "size"}
     if opened is not None:
         ways = {"from the file": "file", **ways}
-    how = mo.ui.dropdown(ways, value=next(iter(ways)), label="bearing")
-    name = mo.ui.text(value="6205", label="name", placeholder="6205-2RSH/C3", full_width=True)
+    how = named(mo.ui.dropdown(ways, value=next(iter(ways)), label="bearing"))
+    name = named(
+        mo.ui.text(value="6205", label="name", placeholder="6205-2RSH/C3", full_width=True)
+    )
     kinds = {
         "deep groove": "deep_groove", "angular contact": "angular_contact", "double row": "double_row",
     }  # fmt: skip
@@ -86,18 +88,20 @@ def bearing(mo, opened, set_sizes, writing):
 
     def number(field, stop, label, step=0.1):
         least = 0.0 if "ball" in field or "angle" in field else 0.5
-        return mo.ui.number(
+        return named(mo.ui.number(
             least, stop, step, size[field], label=label, on_change=writing(size, field, set_sizes)
-        )
+        ))  # fmt: skip
 
-    housing = mo.ui.dropdown(["pedestal", "bare ring"], value="pedestal", label="housing")
+    housing = named(mo.ui.dropdown(["pedestal", "bare ring"], value="pedestal", label="housing"))
     name_elements = [name, housing]
     size_elements = [
         number("bore_mm", 500.0, "bore d / mm"),
         number("outside_mm", 1000.0, "outside diameter D / mm"),
         number("width_mm", 300.0, "width B / mm"),
-        mo.ui.dropdown(
-            kinds, value="deep groove", label="kind", on_change=writing(size, "kind", set_sizes)
+        named(
+            mo.ui.dropdown(
+                kinds, value="deep groove", label="kind", on_change=writing(size, "kind", set_sizes)
+            )
         ),
         number("contact_angle_deg", 60.0, "contact angle / °, of angular contact", 1.0),
         number("ball_count", 60, "balls counted (0: estimate)", 1),
@@ -138,22 +142,24 @@ def base(
 
 
 @app.cell
-def turned_knobs(DAMAGE, SURFACES, begun, br, knobs, mo, set_moves, writing):
+def turned_knobs(DAMAGE, SURFACES, begun, br, knobs, mo, named, set_moves, writing):
     """Make the controls anew for another bearing."""
     shown = {each.field: each.value for each in knobs}
     picked = {} if begun is None else {"oil": begun.oil, "damage": "none", "on": "outer_race"}
     knob_elements = {
-        each.field: mo.ui.slider(
+        each.field: named(mo.ui.slider(
             each.start, each.stop, each.step, each.value, label=each.label, include_input=True, full_width=True,
             on_change=writing(shown, each.field, set_moves),
-        )
+        ))
         for each in knobs
     }  # fmt: skip
 
     def pick(name, options, label):
         began = next(each for each, value in options.items() if value == picked[name])
-        knob_elements[name] = mo.ui.dropdown(
-            options, value=began, label=label, on_change=writing(picked, name, set_moves)
+        knob_elements[name] = named(
+            mo.ui.dropdown(
+                options, value=began, label=label, on_change=writing(picked, name, set_moves)
+            )
         )
 
     if begun is not None:
@@ -166,26 +172,31 @@ def turned_knobs(DAMAGE, SURFACES, begun, br, knobs, mo, set_moves, writing):
 
 
 @app.cell
-def running(Runner, mo):
+def running(Forecast, Runner, mo, named):
     """Make what starts and stops a run."""
-    runner = Runner()
+    runner, forecast = Runner(), Forecast()
     get_out, set_out = mo.state(None)
-    duration = mo.ui.slider(
-        0.1, 2.0, 0.1, 0.4, label="simulated time / s", include_input=True, full_width=True
+    duration = named(
+        mo.ui.slider(0.1, 2.0, 0.1, 0.4, label="simulated time / s", include_input=True)
     )
     idle = mo.ui.switch(label="run when idle")
-    start = mo.ui.run_button(label="Run")
-    stop = mo.ui.run_button(label="Stop", kind="warn")
+    start = mo.ui.run_button(label="Run", kind="success")
+    stop = mo.ui.run_button(label="Stop")
     tick = mo.ui.refresh(default_interval="500ms")
-    run_elements = [
-        duration, mo.hstack([start, stop, idle], justify="start", wrap=True),
-        mo.Html(f"<div hidden>{tick.text}</div>"),
-    ]  # fmt: skip
-    return duration, get_out, idle, run_elements, runner, set_out, start, stop, tick
+    return duration, forecast, get_out, idle, runner, set_out, start, stop, tick
 
 
 @app.cell
-def panel(how, knob_elements, mo, name_elements, run_elements, said, size_elements, trouble, what):
+def acting(duration, idle, mo, start, stop, tick):
+    """Show it, under the drawings."""
+    mo.hstack(
+        [start, stop, idle, duration, mo.Html(f"<div hidden>{tick.text}</div>")],
+        justify="start", align="center", wrap=True, gap=1.0,
+    )  # fmt: skip
+
+
+@app.cell
+def panel(how, knob_elements, mo, name_elements, said, size_elements, trouble, what):
     """Show all controls."""
 
     def of(*names):
@@ -197,7 +208,6 @@ def panel(how, knob_elements, mo, name_elements, run_elements, said, size_elemen
         *of("radial_load", "axial_load", "moment", "speed_rpm", "outer_rpm", "clearance", "oil", "temperature_c"),
         mo.hstack(of("damage", "on"), justify="start", wrap=True),
         *of("width_mm", "angle_deg", "housing_mass", "housing_frequency", "noise"),
-        *run_elements,
     ])  # fmt: skip
 
 
@@ -211,7 +221,8 @@ def holding(mo):
 
 @app.cell
 def solving(
-    BallraceError, begun, get_moves, get_noise, knobs, latest, live, picked, refused, set_noise, shown, taken,
+    BallraceError, begun, forecast, get_moves, get_noise, knobs, latest, live, picked, refused, set_noise, shown,
+    taken,
 ):  # fmt: skip
     """Solve what the controls say."""
     _ = get_moves()
@@ -221,6 +232,7 @@ def solving(
         try:
             scene = settings.scene()
             solution = live.solved(scene)
+            forecast.ask(scene)
         except BallraceError as error:
             unsolved = refused(error)
         if settings.noise != get_noise():
@@ -258,12 +270,18 @@ def stopped(runner, stop):
 
 
 @app.cell
-def progress(escape, get_out, latest, mo, refused, runner, set_out, tick):
+def progress(duration, escape, forecast, get_out, latest, mo, refused, runner, said, set_out, tick):
     """Look after the run twice a second: a tick makes this cell run again."""
     _ = tick.value
     run = runner.newest
+    seconds = forecast.seconds(latest["scene"])
+    takes = (
+        ""
+        if seconds is None
+        else f" A run of {duration.value:g} s takes some {max(seconds * duration.value, 0.1):.1g} s."
+    )
     if run is None:
-        state = mo.md("No run yet.")
+        state = said(f"No run yet.{takes}")
     elif run.state == "failed":
         state = refused(run.why)
     else:
@@ -272,7 +290,7 @@ def progress(escape, get_out, latest, mo, refused, runner, set_out, tick):
         fits = (
             ""
             if run.scene == latest["scene"]
-            else " The run is of other settings than those above."
+            else f" These are other settings than those shown.{takes}"
         )
         text = f"{run.state}, {run.share:.0%}.{fits}"
         state = mo.Html(
@@ -310,7 +328,7 @@ def results(BallraceError, CONFIG, mo, out, rates, refused, sensor, simulated):
 
 
 @app.cell
-def dropping(beside, file, mo, opened):
+def dropping(beside, file, mo, named, opened):
     """Take a measured file."""
     dropped_file = mo.ui.file(
         kind="area",
@@ -338,6 +356,8 @@ def dropping(beside, file, mo, opened):
             "time_unit": mo.ui.dropdown(list(beside.TIME_UNITS), label="unit of the times"),
         }
     )
+    for field in (record_fs, record_rpm, record_unit, *record_said.elements.values()):
+        named(field)
     begun_with = None if opened is not None or file is None else (file.name, file.read_bytes())
     mo.vstack(
         [

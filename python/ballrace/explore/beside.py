@@ -70,10 +70,11 @@ def received(name: str, contents: bytes, fs: float | None = None, **said: Any) -
         path = Path(folder) / f"record{suffix}"
         path.write_bytes(contents)
         try:
-            return Dropped(name=name, record=read(path, fs, **said))
+            record = read(path, fs, **said)
         except FileError as error:
             # The reader knows the copy alone.
             raise FileError(name, str(error).replace(str(path), name)) from error
+    return Dropped(name=name, record=replace(record, source=name))
 
 
 def said_by(values: Mapping[str, Any]) -> dict[str, Any]:

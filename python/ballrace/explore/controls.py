@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from .settings import Settings
 
-__all__ = ["Control", "controls", "taken"]
+__all__ = ["Control", "controls", "named", "taken"]
+
+_TAG = re.compile(r"(?:\\|&#92;)u003c.*?(?:\\|&#92;)u003e")
+"""A tag in an attribute of an element, as marimo writes it there."""
+
+_Element = TypeVar("_Element")
 
 _Steps = tuple[float, float, float]
 """Least and largest value, and step."""
@@ -66,6 +72,15 @@ def taken(begun: Settings, made: tuple[Control, ...], shown: Mapping[str, float]
         if each.field in shown and shown[each.field] != each.value
     }
     return begun.moved(**moved)
+
+
+def named(element: _Element) -> _Element:
+    """Return an element whose fields have plain names; of labels marimo makes Markdown, with tags in names."""
+    for field in ("_text", "_inner_text"):
+        text = getattr(element, field, None)
+        if isinstance(text, str):
+            setattr(element, field, _TAG.sub("", text))
+    return element
 
 
 def _forces(begun: Settings) -> tuple[Control | None, ...]:

@@ -8,16 +8,21 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from ..errors import BallraceError
+from ..explanation import explain
 from ..run import simulate
 from ..scene import Scene
 from ..signals import Signals
 
-__all__ = ["FS", "Runner", "Running"]
+__all__ = ["FS", "Forecast", "Runner", "Running"]
 
 FS = 25_600.0
 """Sampling rate of the page's runs [Hz]."""
 
 _State = Literal["waiting", "running", "done", "failed", "stopped"]
+
+
+_REST = 0.4
+"""Time for which a scene has to stay before its cost is asked for [s]: not at every move of a slider."""
 
 
 class _StoppedError(Exception):
@@ -103,3 +108,45 @@ class Runner:
         """Stop what waits or runs."""
         if self.newest is not None:
             self.newest.stop()
+
+
+class Forecast:
+    """What a simulated second of the newest scene costs, worked out on a thread once the scene stays the same."""
+
+    def __init__(self) -> None:
+        self._changed = threading.Condition()
+        self._asked: Scene | None = None
+        self._known: tuple[Scene, float | None] | None = None
+        threading.Thread(target=self._work, name="ballrace forecast", daemon=True).start()
+
+    def ask(self, scene: Scene) -> None:
+        """Have the cost of a scene worked out, and no more that of one before."""
+        with self._changed:
+            self._asked = scene
+            self._changed.notify_all()
+
+    def seconds(self, scene: Scene | None) -> float | None:
+        """Return the time that a simulated second of a scene takes [s]; None as long as it is not known."""
+        known = self._known
+        return known[1] if known is not None and known[0] == scene else None
+
+    def _work(self) -> None:
+        while True:
+            with self._changed:
+                while self._asked is None:
+                    self._changed.wait()
+                scene = self._asked
+                if self._changed.wait(_REST):
+                    continue
+                self._asked = None
+            self._known = scene, _cost(scene)
+
+
+def _cost(scene: Scene) -> float | None:
+    """Return what :func:`ballrace.explain` measures; None of a scene that cannot begin."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            return float(explain(scene).cost.seconds)
+    except BallraceError:
+        return None

@@ -5,7 +5,7 @@
 >>> with tempfile.TemporaryDirectory() as folder:
 ...     path = pathlib.Path(folder) / "report.html"
 ...     out.report(path)
-...     "Loads, pressures and life" in path.read_text(encoding="utf-8")
+...     "contact pressure and rating life" in path.read_text(encoding="utf-8")
 True
 """
 
