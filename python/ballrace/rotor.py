@@ -22,7 +22,7 @@ from .statics import warned
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Mapping, Sequence
 
     import polars as pl
     from numpy.typing import ArrayLike
@@ -72,7 +72,7 @@ class StiffnessTable:
     name : str
         The scene's name.
     warnings : tuple of str
-        Warnings of all cases.
+        Warnings, each subject once, with the numbers of the first case and in how many it is told.
     """
 
     stiffness: NDArray[np.float64]
@@ -263,7 +263,7 @@ def stiffness_table(
                 changes["drive"] = SpeedDrive(float(speeds[k]))
             rpm = None if speeds is None else float(speeds[k]) * 30.0 / math.pi
             found.append(_coefficients(scene, changes, positions, _note(cases, case, rpm)))
-    texts = dict.fromkeys(text for one in found for text in one["equilibrium"]["warnings"])
+    texts = _once([one["equilibrium"]["warnings"] for one in found])
     return StiffnessTable(
         stiffness=np.stack([one["stiffness"] for one in found]).reshape(*shape, 5, 5),
         damping=np.stack([one["damping"] for one in found]).reshape(*shape, 5, 5),
@@ -272,6 +272,16 @@ def stiffness_table(
         name=scene.name,
         warnings=warned(texts, stacklevel=4),
     )
+
+
+def _once(found: Sequence[Iterable[str]]) -> list[str]:
+    """Return what equilibria warn of: each subject once, with the numbers of the first, and in how many."""
+    of: dict[str, list[str]] = {}
+    for texts in found:
+        for text in texts:
+            of.setdefault(text.partition(" = ")[0], []).append(text)
+    several = "" if len(found) == 1 else f"; in {{}} of {len(found)} equilibria of the table"
+    return [texts[0] + several.format(len(texts)) for texts in of.values()]
 
 
 def _coefficients(

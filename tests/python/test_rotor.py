@@ -13,6 +13,7 @@ import os
 import shutil
 import subprocess
 import sys
+import warnings
 from dataclasses import replace
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
@@ -326,3 +327,19 @@ def test_without_ross_one_line_says_how_to_install_it(
         ImportError, match=r"a bearing element of ROSS needs ross .*pip install ross-rotordynamics$"
     ):
         table.to_ross(0)
+
+
+def test_a_table_warns_of_each_subject_once() -> None:
+    """However many of its loads and speeds have it; the numbers are those of the first."""
+    scene = br.bearing("6205", radial_load=40.0, axial_load=50.0, speed_rpm=1800.0)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        table = br.stiffness_table(scene, {"axial": [50.0, 80.0]}, speeds_rpm=[9000.0, 12000.0])
+    texts = [str(each.message) for each in caught]
+    subjects = [text.partition(" = ")[0] for text in texts]
+    assert "row 0, thrust a ball" in subjects
+    assert len(subjects) == len(set(subjects))
+    assert texts == list(table.warnings)
+    assert texts[subjects.index("row 0, thrust a ball")].endswith(
+        "; in 4 of 4 equilibria of the table"
+    )

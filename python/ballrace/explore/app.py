@@ -187,15 +187,6 @@ def running(Forecast, Runner, mo, named):
 
 
 @app.cell
-def acting(duration, idle, mo, start, stop, tick):
-    """Show it, under the drawings."""
-    mo.hstack(
-        [start, stop, idle, duration, mo.Html(f"<div hidden>{tick.text}</div>")],
-        justify="start", align="center", wrap=True, gap=1.0,
-    )  # fmt: skip
-
-
-@app.cell
 def panel(how, knob_elements, mo, name_elements, said, size_elements, trouble, what):
     """Show all controls."""
 
@@ -209,6 +200,15 @@ def panel(how, knob_elements, mo, name_elements, said, size_elements, trouble, w
         mo.hstack(of("damage", "on"), justify="start", wrap=True),
         *of("width_mm", "angle_deg", "housing_mass", "housing_frequency", "noise"),
     ])  # fmt: skip
+
+
+@app.cell
+def acting(duration, idle, mo, start, stop, tick):
+    """Show it, under the drawings."""
+    mo.hstack(
+        [start, stop, idle, duration, mo.Html(f"<div hidden>{tick.text}</div>")],
+        justify="start", align="center", wrap=True, gap=1.0,
+    )  # fmt: skip
 
 
 @app.cell
