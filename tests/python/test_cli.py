@@ -500,12 +500,18 @@ def test_diagnose(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     exact = ["--speed-within", "0.001"]
     assert main([*known, "--rpm", "1800", *exact, "--exclude", "1.7", "--mains", "50"]) == 0
     assert capsys.readouterr().out.startswith("6205: healthy\n")
-    assert "speed_rpm = None" in refused(capsys, *known)
+    assert "--rpm = none" in refused(capsys, *known)
     assert "speed_within = 0.5" in refused(capsys, *known, "--rpm", "1800", "--speed-within", "0.5")
     assert "channel = 'FE'" in refused(capsys, *known, "--rpm", "1800", "--channel", "FE")
     assert "designation = '62x'" in refused(capsys, *known[:3], "62x", "--rpm", "1800")
     assert ".html" in refused(capsys, *known, "--rpm", "1800", "-o", "page.txt")
     assert "missing.csv" in refused(capsys, "diagnose", "missing.csv", "--bearing", "6205")
+    head = "Drehzahl;1797 1/min\nLogger;X 3\n\nt;a\n"
+    rows = "".join(f"{1e-4 * k:.4f};{k % 7}\n" for k in range(2000))
+    Path("pump.csv").write_text(head + rows, encoding="utf-8")
+    text = refused(capsys, "diagnose", "pump.csv", "--bearing", "6205")
+    assert "--rpm = none: the speed [1/min]" in text
+    assert text.rstrip().endswith('; its head has "Drehzahl: 1797 1/min"')
 
 
 def test_a_missing_library_is_one_line(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import TYPE_CHECKING, get_args
 
@@ -11,6 +12,7 @@ from ..diagnosis import diagnose
 from ..diagnosis.result import header_of, reason, width_of
 from ..diagnosis.severity import Machine
 from ..errors import SceneError
+from ..recordings import Recording
 from ..report.writing import check_page
 from ..scene import Scene
 from .arguments import Commands, add_signals, add_speeds, added, said_of
@@ -21,8 +23,12 @@ if TYPE_CHECKING:
     import argparse
 
     from ..diagnosis.kinematics import AnyBearing
+    from ..recordings.columns import Columns
 
 __all__ = ["add_commands"]
+
+_SPEED = re.compile(r"rpm|speed|drehzahl|1/min|min-1|r/min|u/min|tr/min|vitesse", re.IGNORECASE)
+"""How heads of files write that a number is a speed."""
 
 
 def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:
@@ -75,11 +81,17 @@ def _diagnose(options: argparse.Namespace) -> None:
         record = read_columns(path, said_of(options))
         if options.channel is not None and options.channel not in record:
             raise SceneError("channel", repr(options.channel), f"one of {', '.join(record)}")
-        found = diagnose(
-            record, _bearing(options.bearing), options.rpm, outer_rpm=options.outer_rpm, column=options.channel,
-            unit=options.unit, speed_within=options.speed_within, false_alarm=options.false_alarm,
-            exclude=options.exclude, mains=options.mains, machine=options.machine,
-        )  # fmt: skip
+        try:
+            found = diagnose(
+                record, _bearing(options.bearing), options.rpm, outer_rpm=options.outer_rpm,
+                column=options.channel, unit=options.unit, speed_within=options.speed_within,
+                false_alarm=options.false_alarm, exclude=options.exclude, mains=options.mains,
+                machine=options.machine,
+            )  # fmt: skip
+        except SceneError as error:
+            if error.path != "speed_rpm" or options.rpm is not None:
+                raise
+            raise SceneError("--rpm", "none", f"{error.allowed}{_told_speed(record)}") from error
     parts = "".join(f", {part.replace('_', ' ')}" for part in found.parts)
     print(printable(f"{found.bearing}: {found.verdict}{parts}\n{reason(found)}"))
     if found.evidence:
@@ -91,6 +103,13 @@ def _diagnose(options: argparse.Namespace) -> None:
     if options.output is not None:
         found.report(options.output)
         print_size(options.output)
+
+
+def _told_speed(record: Columns) -> str:
+    """Return what the head of a file says of a speed, which is not taken unasked, in words; empty if nothing."""
+    head = record.metadata.items() if isinstance(record, Recording) else ()
+    found = (f"{key}: {value}" for key, value in head if _SPEED.search(f"{key} {value}"))
+    return "".join(f'; its head has "{each}"' for each in found)
 
 
 def _bearing(name: str | None) -> AnyBearing | None:

@@ -93,7 +93,10 @@ def _single(part: Any) -> Any:
     if part.get("dtype") != "f8":
         return {key: _single(each) for key, each in part.items()}
     double = np.frombuffer(base64.b64decode(part["bdata"]), np.float64)
-    return part | {"dtype": "f4", "bdata": base64.b64encode(double.astype(np.float32)).decode()}
+    return part | {
+        "dtype": "f4",
+        "bdata": base64.b64encode(double.astype(np.float32).tobytes()).decode(),
+    }
 
 
 class Page:
