@@ -11,6 +11,7 @@ import re
 import shutil
 import struct
 import sys
+import tomllib
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from importlib.metadata import PackageNotFoundError
@@ -71,6 +72,17 @@ def test_without_the_library_it_says_how_to_build_it(
         assert code == 2
         assert message in capsys.readouterr().err
         assert not packed.exists()
+
+
+def test_a_wheel_takes_the_library_from_where_the_command_looks_for_it() -> None:
+    pyproject = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    (include,) = pyproject["tool"]["maturin"]["include"]
+    assert include["format"] == "wheel"
+    place = Path("python", "ballrace", fmu._PACKAGED.relative_to(Path(br.__file__).parent))
+    assert place.match(include["path"])
+    script = (ROOT / "packaging" / "fmu_library").read_text(encoding="utf-8")
+    assert f"{place.parent.as_posix()}/" in script
+    assert f" {fmu._NAME}" in script
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="a shell script stands for cargo")

@@ -38,8 +38,8 @@ _NAME = (
 )
 """Name of its file, as cargo gives it."""
 
-_PACKAGED = Path(__file__).with_name(_NAME)
-"""Where wheels of a release have it."""
+_PACKAGED = Path(__file__).parents[1] / "_fmu" / _NAME
+"""Where wheels of a release have it: no place where Python looks for modules."""
 
 _CARGO = ("cargo", "build", "--release", "--locked", "-p", "ballrace-fmu")
 
