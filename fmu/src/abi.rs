@@ -214,7 +214,7 @@ pub unsafe extern "C" fn fmi3ExitInitializationMode(handle: *mut Handle) -> Stat
 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3Terminate(handle: *mut Handle) -> Status {
-    unsafe { with(handle, |instance| instance.terminate()) }
+    unsafe { with(handle, Instance::terminate) }
 }
 
 #[unsafe(no_mangle)]
