@@ -33,7 +33,7 @@ def draw() -> None:
             choice = page.locator("marimo-dropdown", has_text=label).first
             choice.locator("select").select_option(label=option)
         page.wait_for_selector("rect.damage", timeout=60_000)
-        page.wait_for_timeout(1000)
+        page.wait_for_selector("text=/A run of .* takes some/", timeout=60_000)
         png = base64.b64encode(page.screenshot()).decode()
         PICTURE.write_bytes(base64.b64decode(page.evaluate(WEBP, png)))
         browser.close()
