@@ -105,6 +105,23 @@ def test_frequencies_do_not_know_the_defect(on: str) -> None:
     assert br.fault_frequencies(spalled) == br.fault_frequencies(healthy)
 
 
+def test_a_run_that_leads_its_forecast_says_so_and_why_is_no_start() -> None:
+    """Truth: a run six times as long, which leads as much; under three times the load it does not."""
+    scene = br.bearing("7208B", radial_load=1000.0, speed_rpm=10_000.0)
+    forecast = br.fault_frequencies(scene).ftf
+    leads = []
+    for duration in (0.05, 0.3):
+        out = _quietly(br.simulate, scene, duration=duration, fs=5e3)
+        leads.append(br.fault_frequencies(out).ftf / forecast - 1.0)
+        text = next(text for text in out.warnings if "its balls orbited at" in text)
+        assert f"{100.0 * leads[-1]:.1f} % faster" in text
+    assert min(leads) > 0.008
+    assert leads[1] == pytest.approx(leads[0], abs=0.003)
+    heavier = br.bearing("7208B", radial_load=3000.0, speed_rpm=10_000.0)
+    out = _quietly(br.simulate, heavier, duration=0.05, fs=5e3)
+    assert abs(br.fault_frequencies(out).slip or 0.0) < 0.004
+
+
 def test_too_little_load_is_doubted() -> None:
     """Truth: Hirano's ten centrifugal forces of a ball, by hand."""
     scene = br.bearing("7208B", radial_load=0.0, axial_load=100.0, speed_rpm=10_000.0)
