@@ -12,7 +12,8 @@ use ballrace::dynamics::Dynamics;
 use ballrace::inspect;
 use ballrace::integrate::{DORMAND_PRINCE, Options, System, Tolerance, integrate};
 use ballrace::scene::{
-    Defect, Friction, Lubricant, Mount, NormalLaw, Scene, Slices, Surface, TimeFunction, presets,
+    Defect, Friction, Lubricant, Mount, NormalLaw, Pit, Scene, Slices, Surface, TimeFunction,
+    presets,
 };
 use ballrace::{Model, Race, Run, Start, equilibrium, load_distribution, simulate, start};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
@@ -51,18 +52,22 @@ fn contact(c: &mut Criterion) {
         let (model, y) = loaded(&wheel(NormalLaw::iso16281(), slices));
         // Ball 1 of row 0 carries most.
         group.bench_function(format!("{slices:?}"), |b| {
-            b.iter(|| inspect::contact(&model, black_box(&y), 1, Race::Outer));
+            b.iter(|| inspect::contact(&model, black_box(&y), 1, Race::Outer).unwrap());
         });
     }
     // Its ball 0 stands over the pit.
     let whole = presets::deep_groove_6205(500.0, 0.0, 1797.0);
     let mut pitted = whole.clone();
-    let pit = Defect::pit(Surface::OuterRace, whole.rows[0].start_angle, 0.178e-3);
+    let pit = Defect::of(
+        Pit::of_width(0.178e-3),
+        Surface::OuterRace,
+        whole.rows[0].start_angle,
+    );
     pitted.defects.insert("pit".to_owned(), pit);
     for (name, scene) in [("6205", whole), ("6205 at a pit", pitted)] {
         let (model, y) = loaded(&scene);
         group.bench_function(name, |b| {
-            b.iter(|| inspect::contact(&model, black_box(&y), 0, Race::Outer));
+            b.iter(|| inspect::contact(&model, black_box(&y), 0, Race::Outer).unwrap());
         });
     }
     group.finish();

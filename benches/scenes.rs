@@ -6,7 +6,7 @@
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::time::Instant;
 
-use ballrace::scene::{Defect, Friction, Lubricant, Scene, Surface, Texture, presets};
+use ballrace::scene::{Defect, Friction, Lubricant, Pit, Scene, Surface, Texture, presets};
 use ballrace::{Run, simulate};
 
 fn scenes() -> [(&'static str, Scene); 8] {
@@ -24,7 +24,7 @@ fn scenes() -> [(&'static str, Scene); 8] {
         scene.defects.insert("pit".to_owned(), pit);
         scene
     };
-    let pit = |on| Defect::pit(on, -std::f64::consts::FRAC_PI_2, 0.178e-3);
+    let pit = |on| Defect::of(Pit::of_width(0.178e-3), on, -std::f64::consts::FRAC_PI_2);
     let pits = [pit(Surface::OuterRace), pit(Surface::Ball).on_ball(0)].map(pitted);
     let [pitted_race, pitted_ball] = pits;
     [

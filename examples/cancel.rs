@@ -22,7 +22,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         }
     };
     match simulate_with_progress(&presets::wheel_bearing(3000.0), &run, &mut watch) {
-        Err(ballrace::Error::Interrupted { time }) => println!("stopped at {time:.4} s"),
+        Err(ballrace::Error::Interrupted { time, .. }) => println!("stopped at {time:.4} s"),
         other => return Err(format!("not interrupted: {:?}", other.map(|out| out.stats)).into()),
     }
     Ok(())

@@ -24,10 +24,7 @@ fn bearing() -> Scene {
     (scene.outer_ring.support.x, scene.outer_ring.support.y) = (housing.clone(), housing);
     let down = Load::new(RingName::Inner, [0.0, -1.0, 0.0], 500.0);
     scene.loads.insert("down".to_owned(), down);
-    let motion = Probe::Motion {
-        body: "outer".to_owned(),
-        components: None,
-    };
+    let motion = Probe::motion("outer");
     scene.probes.insert("outer".to_owned(), motion);
     scene
 }

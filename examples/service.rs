@@ -79,8 +79,11 @@ fn follow(scene: &Scene, loads: &[f64]) -> Result<usize, Error> {
 /// The answer of the service to input that it cannot use: a status, and for the log the error's own words.
 fn status(error: &Error) -> u16 {
     match error {
-        Error::Scene { path, .. } if path == "designation" => 404,
-        Error::Record { .. } | Error::Snapshot { .. } | Error::Scene { .. } => 422,
+        Error::Argument { path, .. } if path == "designation" => 404,
+        Error::Argument { .. }
+        | Error::Scene { .. }
+        | Error::Record { .. }
+        | Error::Snapshot { .. } => 422,
         Error::Equilibrium { .. } | Error::Integration { .. } => 409,
         Error::Budget { .. } | Error::Memory { .. } | Error::Interrupted { .. } => 503,
         _ => 500,

@@ -25,20 +25,23 @@
 //! | What stiffness and damping does it have in a rotor? | [`dynamic_coefficients()`] |
 //! | What does a run integrate and leave out, and what does it cost? | [`explain()`] |
 //! | Which features has the record, and which of many records? | [`features()`], [`campaign()`] |
-//! | What does a measured record show, and where? | [`signal_features()`], [`squared_envelope_spectrum()`], [`fault_frequencies()`], [`run_fault_frequencies()`], [`scene::RowGeometry`] |
+//! | What does a measured record show, and where? | [`signal_features()`], [`squared_envelope_spectrum()`], [`order_spectrum()`], [`fault_frequencies()`], [`run_fault_frequencies()`], [`scene::RowGeometry`] |
 //! | What are the equations, for an integrator of one's own? | [`compile()`], [`dynamics`], [`integrate`] |
 //! | What holds in a given state: loads, energies, films? | [`inspect`] |
 //! | Which bearing is a 6205? | `scene::catalogue`, by the feature of that name |
 //! | How does a force of my own act on a ring? | [`scene::RingForce`], [`scene::TableForce`] |
 //!
 //! Bad input is refused by one [`Error`] that names the field, the value and what is allowed; its variants say whether a scene, a record, a
-//! snapshot or a force of the caller's is at fault. The page `docs/model.md` of this package has the model, its equations and their sources.
+//! snapshot or a force of the caller's is at fault. [`equations`] has the model, its equations and their sources.
 //!
 //! # Units and frames
 //!
 //! SI throughout. Right-handed inertial frame: z along the bearing axis, x to the right, y up; angle 0 on +x,
 //! counter-clockwise. A body has four degrees of freedom x, y, z, θ (about z): balls spin about z and rings stay parallel, unless
 //! a scene lets balls spin freely or rings tilt; then each of these has two more, behind all bodies in the state vector.
+
+#[doc = include_str!("equations.md")]
+pub mod equations {}
 
 mod base;
 mod campaign;
@@ -68,8 +71,9 @@ pub use explain::{
     TextureExplanation, Variant, explain,
 };
 pub use features::{
-    FaultFrequencies, Feature, FeatureOptions, fault_frequencies, feature_columns, features,
-    run_fault_frequencies, signal_features, squared_envelope, squared_envelope_spectrum,
+    FaultFrequencies, Feature, FeatureOptions, by_order, fault_frequencies, feature_columns,
+    features, order_spectrum, run_fault_frequencies, signal_features, squared_envelope,
+    squared_envelope_spectrum, turning,
 };
 pub use model::{Body, BodyId, BodyKind, DOFS, Degree, Dof, Layout, Model, Placed, Race, Scales};
 pub use reduction::{Obstacle, Omission, Reduction};

@@ -11,6 +11,7 @@ __all__ = [
     "available_threads",
     "axis_held",
     "axis_ratio",
+    "by_order",
     "campaign",
     "check_run",
     "check_samples",
@@ -44,6 +45,7 @@ __all__ = [
     "squared_envelope",
     "stiffness",
     "time_values",
+    "turning",
 ]
 
 _Array: TypeAlias = NDArray[np.float64]
@@ -200,6 +202,8 @@ def rolling_frequencies(
     speeds: tuple[float, float],
 ) -> str: ...
 def squared_envelope(x: _Array, fs: float, band: tuple[float, float] | None) -> _Array: ...
+def by_order(x: _Array, angle: _Array, per_turn: int | None) -> tuple[_Array, _Array]: ...
+def turning(angle: _Array) -> tuple[int, int]: ...
 def amplitudes(x: _Array, length: int) -> _Array: ...
 def hann_weighted(x: _Array) -> _Array: ...
 def available_threads() -> int: ...

@@ -10,8 +10,9 @@ use crate::base::quantities;
 #[derive(Debug, Clone, PartialEq, Error, Serialize)]
 #[non_exhaustive]
 pub enum Error {
-    /// A field of the scene, or an argument of a run, is not usable. Nothing was computed or written.
+    /// A field of the scene is not usable. Nothing was computed or written.
     #[error("{path} = {value}: {allowed}")]
+    #[non_exhaustive]
     Scene {
         /// Dotted path of the field, such as `rows[0].ball_diameter`.
         path: String,
@@ -20,8 +21,20 @@ pub enum Error {
         /// Values that are allowed there.
         allowed: String,
     },
+    /// An argument of a call, or an option of a run or of features, is not usable. Nothing was computed or written.
+    #[error("{path} = {value}: {allowed}")]
+    #[non_exhaustive]
+    Argument {
+        /// Name of the argument or option, such as `duration`.
+        path: String,
+        /// The offending value as the caller wrote it.
+        value: String,
+        /// Values that are allowed there.
+        allowed: String,
+    },
     /// A record is not usable: a sample that is no number, or too large.
     #[error("{path} = {value}: {allowed}")]
+    #[non_exhaustive]
     Record {
         /// The record's name as an argument.
         path: String,
@@ -32,6 +45,7 @@ pub enum Error {
     },
     /// A snapshot is not usable: no document of one, of another version or run, or with other forces.
     #[error("{path} = {value}: {allowed}")]
+    #[non_exhaustive]
     Snapshot {
         /// Dotted path in the snapshot's document.
         path: String,
@@ -42,12 +56,14 @@ pub enum Error {
     },
     /// The static solve found no stable equilibrium.
     #[error("no equilibrium: {reason}")]
+    #[non_exhaustive]
     Equilibrium {
         /// Why, and what to try.
         reason: String,
     },
     /// A force by code of the caller ([`crate::scene::RingForce`]) gave what is no force, or panicked in a campaign.
     #[error("{path} at t = {}: {reason}", reached(.time))]
+    #[non_exhaustive]
     Force {
         /// Path of the force in the scene, such as `ring_forces.pull`.
         path: String,
@@ -62,6 +78,7 @@ pub enum Error {
         reached(.time),
         quantities::time(.step)
     )]
+    #[non_exhaustive]
     Integration {
         /// Time reached \[s\].
         time: f64,
@@ -77,16 +94,17 @@ pub enum Error {
     },
     /// The observer (Ctrl-C, a callback) asked to stop.
     #[error("interrupted at t = {}", reached(.time))]
+    #[non_exhaustive]
     Interrupted {
         /// Time reached \[s\].
         time: f64,
     },
     /// The run cost more than [`crate::Run::time_limit`] or [`crate::Run::max_steps`] allows.
     #[error(
-        "stopped at t = {}: {name} = {limit} is spent; allow more, or make the run cheaper (`ballrace explain` \
-         shows how)",
+        "stopped at t = {}: {name} = {limit} is spent; allow more, or make the run cheaper (`explain` shows how)",
         reached(.time)
     )]
+    #[non_exhaustive]
     Budget {
         /// Simulated time reached \[s\].
         time: f64,
@@ -101,6 +119,7 @@ pub enum Error {
         .needed / quantities::GIB,
         .available / quantities::GIB
     )]
+    #[non_exhaustive]
     Memory {
         /// Memory that would be needed \[bytes\].
         needed: f64,
@@ -111,6 +130,7 @@ pub enum Error {
     },
     /// A panic in this crate, caught so that one case of many does not stop the others.
     #[error("internal error, please report it: {message}")]
+    #[non_exhaustive]
     Internal {
         /// Message of the panic.
         message: String,
@@ -118,7 +138,7 @@ pub enum Error {
 }
 
 impl Error {
-    /// A scene error; `value` may be anything that prints.
+    /// A field of a scene that is not usable; `value` may be anything that prints.
     #[allow(clippy::needless_pass_by_value)] // so that literals and numbers can be given as they are
     pub fn scene(
         path: impl Into<String>,
@@ -126,6 +146,20 @@ impl Error {
         allowed: impl Into<String>,
     ) -> Self {
         Self::Scene {
+            path: path.into(),
+            value: readable(value.to_string()),
+            allowed: allowed.into(),
+        }
+    }
+
+    /// An argument or option that is not usable; likewise.
+    #[allow(clippy::needless_pass_by_value)] // as above
+    pub fn argument(
+        path: impl Into<String>,
+        value: impl std::fmt::Display,
+        allowed: impl Into<String>,
+    ) -> Self {
+        Self::Argument {
             path: path.into(),
             value: readable(value.to_string()),
             allowed: allowed.into(),

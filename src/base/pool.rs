@@ -47,7 +47,7 @@ impl Pool {
     /// The pool of so many threads; none for one.
     ///
     /// # Errors
-    /// [`Error::Scene`] for more threads than the system grants.
+    /// [`Error::Argument`] for more threads than the system grants.
     pub fn of(threads: usize) -> Result<Option<Self>> {
         if threads == 1 {
             return Ok(None);
@@ -63,7 +63,7 @@ impl Pool {
             .stack_size(STACK)
             .build()
             .map_err(|e| {
-                Error::scene(
+                Error::argument(
                     "threads",
                     threads,
                     format!("a number of threads the system grants ({e})"),

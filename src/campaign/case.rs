@@ -1,6 +1,6 @@
 //! The run of one case and its features; all errors become its outcome.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -19,7 +19,7 @@ use crate::scene::Scene;
 use crate::signals::Signals;
 
 /// A case: what to run.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Case {
     /// The scene.

@@ -32,7 +32,7 @@ pub use stream::stream;
 /// keeps none of them.
 ///
 /// # Errors
-/// [`crate::Error::Scene`] for a number of threads that is not usable. What goes wrong in a case is in its outcome.
+/// [`crate::Error::Argument`] for a number of threads that is not usable. What goes wrong in a case is in its outcome.
 pub fn campaign(
     cases: impl IntoIterator<Item = Case>,
     threads: usize,

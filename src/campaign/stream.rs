@@ -37,7 +37,7 @@ const RECORDS: f64 = 2.0;
 /// one after the other on this thread, and `watch` is called after each.
 ///
 /// # Errors
-/// [`Error::Scene`] for more than 1024 threads, or more than the system grants.
+/// [`Error::Argument`] for more than 1024 threads, or more than the system grants.
 pub fn stream(
     cases: impl Iterator<Item = Case>,
     threads: usize,
@@ -66,7 +66,7 @@ pub fn stream(
             .spawn(move || work(&shared, &hand_in))
             .map_err(|e| {
                 let allowed = format!("a number of threads the system grants ({e})");
-                Error::scene("threads", threads, allowed)
+                Error::argument("threads", threads, allowed)
             })?;
     }
     drop(hand_in);
@@ -110,7 +110,7 @@ fn count(threads: usize) -> Result<usize> {
     match threads {
         0 => Ok(std::thread::available_parallelism().map_or(1, std::num::NonZero::get)),
         1..=1024 => Ok(threads),
-        _ => Err(Error::scene(
+        _ => Err(Error::argument(
             "threads",
             threads,
             "0 to 1024; 0: one for each core",

@@ -307,7 +307,7 @@ pub(super) struct ElementState<T> {
     pub oil: FilmEffect<T>,
 }
 
-/// The force of an element (`docs/model.md`, *Normal force* and *Friction*).
+/// The force of an element ([*Normal force*](crate::equations#normal-force) and [*Friction*](crate::equations#friction)).
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ElementForce<T> {
     /// Force on the ring along n_e, t_e and z \[N\]; the ball gets the opposite.

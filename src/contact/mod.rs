@@ -1,9 +1,9 @@
 //! Laws of one ball on one race, without indices and without the state of a run.
 //!
-//! `profile` has the races and the zone where a ball touches one (`docs/model.md`, *Geometry of a row* and *Slices*), `laws` the forces of an element of
-//! the zone (sections 4 and 5), `quadrature` where the elements lie, `kernel` combines these:
-//! the force of an element, and the elements of a whole contact; `frames` has the ball in the frame of its ring, `spatial`
-//! the wrench of a contact on its ball, `slip` the slip along a zone, from which `quadrature` computes the weights of
+//! `profile` has the races and the zone where a ball touches one ([*Geometry of a row*](crate::equations#geometry-of-a-row) and
+//! [*Slices*](crate::equations#slices)), `laws` the forces of an element of the zone (sections 4 and 5), `quadrature` where the elements
+//! lie, `kernel` combines these: the force of an element, and the elements of a whole contact; `frames` has the ball in the frame of its
+//! ring, `spatial` the wrench of a contact on its ball, `slip` the slip along a zone, from which `quadrature` computes the weights of
 //! friction. The kernel's callers:
 //!
 //! * `scalar` — [`Pair::evaluate`]: one contact with defects and ends of its zone, every single force to a [`Sink`];

@@ -1,4 +1,5 @@
-//! The effect of an oil film on a whole contact, and rolling resistance, which acts in addition to its nodes (`docs/model.md`, *Film*).
+//! The effect of an oil film on a whole contact, and rolling resistance, which acts in addition to its nodes
+//! ([*Film*](crate::equations#film)).
 
 // Into loops that are compiled for the instructions at hand.
 #![allow(clippy::inline_always)]

@@ -7,7 +7,8 @@ use crate::integrate::System;
 use crate::model::{BodyId, Dof};
 use crate::reduction::Reduction;
 use crate::scene::{
-    Defect, Friction, Method, Profile, Scene, Slices, Surface, TimeFunction, Waviness, presets,
+    Defect, Friction, Method, Patch, Profile, Scene, Slices, Surface, TimeFunction, Waviness,
+    presets,
 };
 use crate::simd::InstructionSet;
 use crate::statics::compile;
@@ -63,7 +64,12 @@ fn in_one_loop(path: Path) -> Path {
 }
 
 fn spall() -> Defect {
-    Defect::new(Surface::OuterRace, -FRAC_PI_2, 4e-3, 1e-3, 0.1e-3).at_offset(0.0)
+    Defect::of(
+        Patch::of_width(1e-3).length(4e-3).edge_radius(0.1e-3),
+        Surface::OuterRace,
+        -FRAC_PI_2,
+    )
+    .at_offset(0.0)
 }
 
 fn two_rows() -> Scene {

@@ -346,7 +346,7 @@ impl System for Dynamics<'_> {
         }
     }
 
-    /// M q̈ = F(t, q, q̇) in state space (`docs/model.md`, *Bodies and frames*).
+    /// M q̈ = F(t, q, q̇) in state space ([*Bodies and frames*](crate::equations#bodies-and-frames)).
     fn rhs(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
         if self.in_plane(y, dy) {
             return;

@@ -7,7 +7,7 @@ use crate::contact::attitude_rates;
 use crate::inspect;
 use crate::integrate::{Options, Tolerance, VERNER, integrate};
 use crate::model::{BodyId, Dof, Model, Race};
-use crate::scene::{Defect, Friction, NormalLaw, Scene, Slices, Spin};
+use crate::scene::{Cap, Defect, Friction, NormalLaw, Scene, Slices, Spin, Surface};
 use crate::statics::compile;
 use crate::statics::start::{Start, face, start};
 
@@ -27,9 +27,13 @@ fn free_balls(law: &NormalLaw) -> Scene {
 fn capped(law: &NormalLaw) -> Scene {
     let mut scene = free_balls(law);
     for (name, ball, angle) in [("first", 0, 0.05), ("other", 3, 1.0)] {
-        let cap = Defect::cap(angle, 1e-3, 0.3e-3)
-            .on_ball(ball)
-            .at_offset(1.6e-3);
+        let cap = Defect::of(
+            Cap::of_width(1e-3).edge_radius(0.3e-3),
+            Surface::Ball,
+            angle,
+        )
+        .on_ball(ball)
+        .at_offset(1.6e-3);
         scene.defects.insert(name.to_owned(), cap);
     }
     scene
@@ -86,7 +90,7 @@ fn free_balls_keep_momenta_and_energy() {
             let model = compile(&scene).unwrap();
             let y0 = spun(&model);
             let end = after(&model, &y0, 5e-5);
-            let [before, after] = [&y0, &end].map(|y| inspect::energy(&model, y).total());
+            let [before, after] = [&y0, &end].map(|y| inspect::raw::energy(&model, y).total());
             let [from, to] = [&y0, &end].map(|y| momenta(&model, y));
             println!("{law:?} {rubs}: {:e}", after / before - 1.0);
             assert!((after / before - 1.0).abs() < 1e-9 || rubs, "{law:?}");
@@ -149,7 +153,7 @@ fn a_cap_on_the_axis_of_spin_is_carried_by_theta() {
     face(&free, &mut of_free);
     for race in Race::BOTH {
         let [a, b] = [(&axial, &y), (&free, &of_free)].map(|(model, y)| {
-            let found = inspect::contact(model, y, 0, race);
+            let found = inspect::raw::contact(model, y, 0, race);
             [found.load, found.angle]
         });
         assert!(a[0] > 0.0 || race == Race::Inner);
@@ -174,11 +178,11 @@ fn powers_of_free_balls_balance() {
         let mut dy = vec![0.0; y.len()];
         rhs(&model, 0.0, &y, &mut dy);
         let moved = |h: f64| -> Vec<f64> { y.iter().zip(&dy).map(|(y, d)| y + h * d).collect() };
-        let energy = |h: f64| inspect::energy(&model, &moved(h)).total();
+        let energy = |h: f64| inspect::raw::energy(&model, &moved(h)).total();
         let h = 2e-9;
         let rate =
             (8.0 * (energy(h) - energy(-h)) - energy(2.0 * h) + energy(-2.0 * h)) / (12.0 * h);
-        let powers = inspect::energy(&model, &y);
+        let powers = inspect::raw::energy(&model, &y);
         let lost = powers.damping_power + powers.friction_power;
         println!("{law:?}: {rate} {lost}");
         assert!(powers.friction_power > 1.0);

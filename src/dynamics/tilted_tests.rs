@@ -9,8 +9,8 @@ use crate::inspect;
 use crate::integrate::{Options, System, Tolerance, VERNER, integrate};
 use crate::model::{BodyId, Dof, Model, Race};
 use crate::scene::{
-    CoupledSupport, Defect, Drive, Friction, Lubricant, Moment, Mount, NormalLaw, RingName, Row,
-    Scene, Slices, Support, Surface, Waviness,
+    CoupledSupport, Defect, Drive, Friction, Lubricant, Moment, Mount, NormalLaw, Patch, RingName,
+    Row, Scene, Slices, Support, Surface, Waviness,
 };
 use crate::simd::InstructionSet;
 use crate::statics::compile;
@@ -137,7 +137,7 @@ fn free_rings_keep_energy_and_momenta() {
             nobody,
         );
         let end = end.unwrap().y;
-        let [before, after] = [&y0, &end].map(|y| inspect::energy(&model, y).total());
+        let [before, after] = [&y0, &end].map(|y| inspect::raw::energy(&model, y).total());
         println!("{law:?}: energy {before} {:e}", after / before - 1.0);
         assert!((after / before - 1.0).abs() < 1e-9, "{law:?}");
         let tilted = model.tilt(&end, Race::Inner)[0];
@@ -176,7 +176,11 @@ fn powers_balance() {
         scene.outer_ring.support.coupled = Some(Box::new(coupled));
         let wave = Waviness::new(7, 1e-6, 0.3);
         scene.rows[0].inner_waviness = vec![wave];
-        let spall = Defect::new(Surface::InnerRace, 0.05, 4e-3, 0.4e-3, 0.2e-3);
+        let spall = Defect::of(
+            Patch::of_width(0.4e-3).length(4e-3).edge_radius(0.2e-3),
+            Surface::InnerRace,
+            0.05,
+        );
         scene
             .defects
             .insert("spall".to_owned(), spall.at_offset(0.0));
@@ -185,11 +189,11 @@ fn powers_balance() {
         let mut dy = vec![0.0; y.len()];
         rhs(&model, 0.0, &y, &mut dy);
         let moved = |h: f64| -> Vec<f64> { y.iter().zip(&dy).map(|(y, d)| y + h * d).collect() };
-        let energy = |h: f64| inspect::energy(&model, &moved(h)).total();
+        let energy = |h: f64| inspect::raw::energy(&model, &moved(h)).total();
         let h = 2e-9;
         let rate =
             (8.0 * (energy(h) - energy(-h)) - energy(2.0 * h) + energy(-2.0 * h)) / (12.0 * h);
-        let powers = inspect::energy(&model, &y);
+        let powers = inspect::raw::energy(&model, &y);
         let lost = powers.damping_power + powers.friction_power + powers.support_power;
         println!("{law:?}: {rate} {lost} {}", powers.friction_power);
         assert!(powers.friction_power > 1.0 && powers.support_power > 1e-3);
@@ -233,7 +237,7 @@ fn parallel_rings_are_those_that_do_not_tilt() {
         // What the moments on held rings would do tilts those that are free.
         for race in Race::BOTH {
             let ring = race.ring();
-            let [about_x, _] = inspect::moments(&held, 0.0, &plain)[race];
+            let [about_x, _] = inspect::raw::moments(&held, 0.0, &plain)[race];
             let layout = loose.layout();
             let found = dy[0][layout.speed_at(ring, Dof::TiltX)];
             let inertia = loose.rings[race].inertia;
@@ -280,7 +284,7 @@ fn forces_turn_with_the_bearing() {
         );
         assert!((turn * a - b).norm() < 1e-9 * size, "{a} {b}");
     }
-    let moments = |y: &[f64]| inspect::moments(&model, 0.0, y);
+    let moments = |y: &[f64]| inspect::raw::moments(&model, 0.0, y);
     assert_ne!(moments(&y), moments(&turned));
 }
 
@@ -359,7 +363,11 @@ fn moments_by_eights_are_those_of_ones() {
                 scene.contact.damping = 0.3;
                 (scene.contact.slices, scene.lubricant) = (slices, oil.clone());
                 scene.rows[0].inner_waviness = vec![Waviness::new(7, 1e-6, 0.3)];
-                let spall = Defect::new(Surface::InnerRace, 0.05, 4e-3, 0.4e-3, 0.2e-3);
+                let spall = Defect::of(
+                    Patch::of_width(0.4e-3).length(4e-3).edge_radius(0.2e-3),
+                    Surface::InnerRace,
+                    0.05,
+                );
                 let spall = spall.at_offset(0.0);
                 scene.defects.insert("spall".to_owned(), spall);
                 let compiled = compile(&scene).unwrap();
@@ -368,7 +376,7 @@ fn moments_by_eights_are_those_of_ones() {
                 y[tilt] = 2e-3;
                 for instructions in InstructionSet::available() {
                     let model = compiled.clone().with_instructions(instructions);
-                    let expected = inspect::moments(&model, 0.0, &y);
+                    let expected = inspect::raw::moments(&model, 0.0, &y);
                     let moments = |mut dynamics: Dynamics<'_>| {
                         dynamics.forces(0.0, &y);
                         dynamics.tilted.unwrap().moments()

@@ -27,7 +27,7 @@ pub(super) fn notes(model: &Model, y0: &[f64], reduced: bool) -> Vec<String> {
 
 /// Rings that are held parallel against a moment.
 fn held_parallel(model: &Model, y0: &[f64]) -> Option<String> {
-    let moments = inspect::moments(model, 0.0, y0);
+    let moments = inspect::raw::moments(model, 0.0, y0);
     let largest = moments.iter().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max);
     let arm = model.radius(Race::Inner.ring());
     let load: f64 = model.scales.load;
@@ -45,7 +45,7 @@ fn pivoting(model: &Model, y0: &[f64]) -> Option<String> {
     let rubs = |j: &usize| model.rows[model.balls[*j].row].has_friction();
     let angles = balls
         .filter(rubs)
-        .map(|j| inspect::contact(model, y0, j, Race::Inner).angle.abs());
+        .map(|j| inspect::raw::contact(model, y0, j, Race::Inner).angle.abs());
     // Not a number without load, which max passes over.
     let largest = angles.fold(0.0, f64::max);
     (largest > ANGLE).then(|| {

@@ -12,7 +12,7 @@ use crate::base::error::Result;
 /// R. B. Randall, Mech. Syst. Signal Process. 20 (2006) 308).
 ///
 /// # Errors
-/// [`Error::Record`](crate::Error::Record) for samples that are not finite, [`Error::Scene`](crate::Error::Scene) for a sampling rate that is none,
+/// [`Error::Record`](crate::Error::Record) for samples that are not finite, [`Error::Argument`](crate::Error::Argument) for a sampling rate that is none,
 /// or a band beyond it.
 pub fn squared_envelope(x: &[f64], fs: f64, band: Option<[f64; 2]>) -> Result<Vec<f64>> {
     let options = FeatureOptions {

@@ -112,8 +112,8 @@ impl FaultFrequencies {
 /// ```
 ///
 /// # Errors
-/// [`Error::Scene`] for a scene that is not usable, a row that it has not, or where a ring's speed is not given, changes, or is that of the
-/// other ring; [`Error::Equilibrium`] where the load cannot be carried.
+/// [`Error::Scene`] for a scene that is not usable, or where a ring's speed is not given, changes, or is that of the other ring;
+/// [`Error::Argument`] for a row that it has not; [`Error::Equilibrium`] where the load cannot be carried.
 pub fn fault_frequencies(scene: &Scene, row: usize) -> Result<FaultFrequencies> {
     check_row(scene, row)?;
     let speeds = steady_speeds(scene)?;
@@ -176,7 +176,7 @@ fn check_row(scene: &Scene, row: usize) -> Result<()> {
         return Ok(());
     }
     let allowed = format!("below {}, the number of rows", scene.rows.len());
-    Err(Error::scene("row", row, allowed))
+    Err(Error::argument("row", row, allowed))
 }
 
 /// Speeds of outer and inner ring that keep them \[Hz\].

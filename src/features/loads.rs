@@ -6,7 +6,7 @@ use super::Feature;
 use super::batches::Batches;
 use super::record::Recorded;
 use crate::base::error::{Error, Result};
-use crate::scene::{ContactQuantity, Probe, RingName, Scene};
+use crate::scene::{ContactQuantity, ContactsProbe, Probe, RingName, Scene};
 use crate::signals::Signals;
 
 const RACES: [RingName; 2] = [RingName::Outer, RingName::Inner];
@@ -21,12 +21,9 @@ pub(crate) fn with_load_probes(scene: &Scene) -> Scene {
     let mut probed = scene.clone();
     probed.probes = scene.recorded().into_owned();
     for row in 0..scene.rows.len() {
-        let probe = Probe::Contacts {
-            row,
-            balls: None,
-            races: None,
-            quantities: Some(vec![ContactQuantity::Load]),
-        };
+        let probe = ContactsProbe::of_row(row)
+            .quantities([ContactQuantity::Load])
+            .into();
         probed.probes.insert(probe_name(row), probe);
     }
     probed
@@ -46,12 +43,12 @@ pub(crate) fn without_load_probes(mut signals: Signals, scene: &Scene) -> Signal
 
 /// Whether a probe records the load of every ball of a row on a race.
 fn records_loads(probe: &Probe, row: usize, race: RingName) -> bool {
-    let Probe::Contacts {
+    let Probe::Contacts(ContactsProbe {
         row: of,
         balls: None,
         races,
         quantities,
-    } = probe
+    }) = probe
     else {
         return false;
     };
@@ -64,7 +61,7 @@ fn records_loads(probe: &Probe, row: usize, race: RingName) -> bool {
 /// Names of the columns that hold the load of every ball of a row on a race.
 ///
 /// # Errors
-/// [`Error::Scene`] if no probe of the scene records them all.
+/// [`Error::Argument`] if no probe of the scene records them all.
 fn columns_of(scene: &Scene, row: usize, race: RingName) -> Result<Vec<String>> {
     let recorded = scene.recorded();
     let Some((name, _)) = recorded
@@ -73,7 +70,7 @@ fn columns_of(scene: &Scene, row: usize, race: RingName) -> Result<Vec<String>> 
     else {
         let allowed =
             format!("probes that record the loads of all contacts; none does for row {row}");
-        return Err(Error::scene("contact_loads", true, allowed));
+        return Err(Error::argument("contact_loads", true, allowed));
     };
     let balls = 0..scene.rows[row].ball_count;
     Ok(balls
@@ -91,7 +88,7 @@ fn label(race: RingName) -> &'static str {
 /// Names of all columns that the extremes are read from.
 ///
 /// # Errors
-/// [`Error::Scene`] if no probe of the scene records them all.
+/// [`Error::Argument`] if no probe of the scene records them all.
 pub fn columns(scene: &Scene) -> Result<Vec<String>> {
     let mut names = Vec::new();
     for row in 0..scene.rows.len() {

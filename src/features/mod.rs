@@ -23,6 +23,7 @@
 //! A feature that a run cannot give (a line below the resolution of its record, a crest factor of zeros) is
 //! present without a value, so that all cases of a table have the same columns.
 
+mod angular;
 mod batches;
 mod envelope;
 mod frequencies;
@@ -46,6 +47,7 @@ use crate::run::Run;
 use crate::scene::Scene;
 use crate::signals::{Signals, columns};
 
+pub use angular::{by_order, order_spectrum, turning};
 pub use envelope::{squared_envelope, squared_envelope_spectrum};
 pub use frequencies::{FaultFrequencies, fault_frequencies, frequencies_at, run_fault_frequencies};
 pub(crate) use loads::{with_load_probes, without_load_probes};
@@ -99,7 +101,7 @@ impl Feature {
 /// Names of the columns whose features a scene gives.
 ///
 /// # Errors
-/// [`Error::Scene`] for a scene that is not usable, or a column that its probes do not record.
+/// [`Error::Scene`] for a scene that is not usable; [`Error::Argument`] for a column that its probes do not record.
 pub fn feature_columns(scene: &Scene, options: &FeatureOptions) -> Result<Vec<String>> {
     let columns = columns(scene)?;
     let Some(asked) = &options.columns else {
@@ -111,7 +113,7 @@ pub fn feature_columns(scene: &Scene, options: &FeatureOptions) -> Result<Vec<St
         Some(unknown) => {
             let known: Vec<_> = columns.iter().map(|c| c.name.as_str()).collect();
             let allowed = format!("columns of the scene's probes: {}", known.join(", "));
-            Err(Error::scene("columns", unknown, allowed))
+            Err(Error::argument("columns", unknown, allowed))
         }
     }
 }
@@ -119,7 +121,7 @@ pub fn feature_columns(scene: &Scene, options: &FeatureOptions) -> Result<Vec<St
 /// Checks the options against a run, before time is spent on it.
 ///
 /// # Errors
-/// [`Error::Scene`] names the option.
+/// [`Error::Argument`] names the option.
 pub fn check(options: &FeatureOptions, run: &Run) -> Result<()> {
     check_record(options, run.duration, run.fs)
 }
@@ -127,16 +129,16 @@ pub fn check(options: &FeatureOptions, run: &Run) -> Result<()> {
 /// Checks the options against a record of a duration \[s\] and a sampling rate \[Hz\].
 fn check_record(options: &FeatureOptions, duration: f64, fs: f64) -> Result<()> {
     if !(fs > 0.0 && fs.is_finite()) {
-        return Err(Error::scene("fs", fs, "a finite number above 0 Hz"));
+        return Err(Error::argument("fs", fs, "a finite number above 0 Hz"));
     }
     if !(options.skip >= 0.0 && options.skip < duration) {
         let allowed = format!("from 0 to below the duration, {duration} s");
-        return Err(Error::scene("skip", options.skip, allowed));
+        return Err(Error::argument("skip", options.skip, allowed));
     }
     match options.band {
         Some([low, high]) if !(0.0 <= low && low < high && high <= fs / 2.0) => {
             let allowed = format!("two rising frequencies from 0 to fs/2, {} Hz", fs / 2.0);
-            Err(Error::scene("band", format!("[{low}, {high}]"), allowed))
+            Err(Error::argument("band", format!("[{low}, {high}]"), allowed))
         }
         _ => Ok(()),
     }
@@ -156,7 +158,7 @@ fn check_record(options: &FeatureOptions, duration: f64, fs: f64) -> Result<()> 
 /// ```
 ///
 /// # Errors
-/// [`Error::Scene`] names an option that the signals do not give: a column that was not recorded, or contact loads that
+/// [`Error::Argument`] names an option that the signals do not give: a column that was not recorded, or contact loads that
 /// no probe has recorded all of; or a column that is not as long as the others.
 pub fn features(signals: &Signals, options: &FeatureOptions) -> Result<Vec<Feature>> {
     let columns = feature_columns(&signals.scene, options)?;

@@ -12,7 +12,7 @@ use crate::signals::kinematics::RowKinematics;
 /// Refuses options that a record does not give.
 ///
 /// # Errors
-/// [`crate::Error::Scene`] names the option.
+/// [`crate::Error::Argument`] names the option.
 pub fn check_recorded(recorded: &Recorded<'_>, options: &FeatureOptions) -> Result<()> {
     if options.contact_loads {
         loads::columns(recorded.scene)?;
@@ -20,7 +20,7 @@ pub fn check_recorded(recorded: &Recorded<'_>, options: &FeatureOptions) -> Resu
     let count = recorded.count();
     if let Some((name, values)) = recorded.columns.iter().find(|(_, x)| x.len() != count) {
         let allowed = format!("{count} samples, as {} has", recorded.columns[0].0);
-        return Err(Error::scene(
+        return Err(Error::argument(
             *name,
             format!("{} samples", values.len()),
             allowed,
@@ -78,8 +78,8 @@ pub fn features_of(
 /// ```
 ///
 /// # Errors
-/// [`crate::Error::Scene`] names an option that the signal does not give, a sampling rate that is none, or a field
-/// of the scene's rows or speeds that is not usable; [`crate::Error::Record`] a sample that is not finite.
+/// [`crate::Error::Argument`] names an option that the signal does not give, or a sampling rate that is none, [`crate::Error::Scene`] a field
+/// of the scene's rows or speeds that is not usable, [`crate::Error::Record`] a sample that is not finite.
 pub fn signal_features(
     x: &[f64],
     fs: f64,

@@ -4,15 +4,12 @@
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
+use super::angular::{resampled, turning_part};
 use crate::scene::{RingName, Scene};
 
 /// A line is sought this far from its kinematic frequency: the operating contact angle differs from the
 /// nominal one, by 10° at most, and the balls slip a little.
 pub(super) const SHARE: f64 = 0.02;
-
-/// Part of the highest speed below which a shaft all but stands, and no line is sought over its angle: a turn has 20 times
-/// the samples of the fastest, of which spectra over the angle keep one.
-const SLOWEST: f64 = 0.05;
 
 /// Turns of the rings over a record, over those of the inner ring against the outer.
 #[derive(Debug, Clone, Copy)]
@@ -77,22 +74,13 @@ impl Shaft {
             return (mean != 0.0).then_some(Self::Steady(mean.abs()));
         }
         let forwards: Vec<f64> = speeds.iter().map(|s| s * mean.signum()).collect();
-        let slowest = SLOWEST * forwards.iter().copied().fold(0.0, f64::max);
-        if mean == 0.0 || forwards.iter().any(|s| *s < -slowest) {
+        if mean == 0.0 {
             return None;
         }
-        let runs = || forwards.chunk_by(|a, b| (*a >= slowest) == (*b >= slowest));
-        let longest = runs().filter(|run| run[0] >= slowest).map(<[f64]>::len);
-        let longest = longest.max().filter(|count| *count > 1)?;
-        let mut first = 0;
-        for run in runs() {
-            if run[0] >= slowest && run.len() == longest {
-                break;
-            }
-            first += run.len();
-        }
+        let part = turning_part(&forwards).filter(|part| part.len() > 1)?;
+        let first = part.start;
         let mut turns = vec![0.0];
-        for pair in forwards[first..first + longest].windows(2) {
+        for pair in forwards[part].windows(2) {
             let last = turns[turns.len() - 1];
             turns.push(last + (pair[0] + pair[1]) / (2.0 * fs));
         }
@@ -128,39 +116,16 @@ impl Shaft {
         }
     }
 
-    /// A signal at equal distances of the spectrum's abscissa, and how many of these a unit has. What it holds between the
-    /// samples is read from a cubic through the nearest four.
+    /// A signal at equal distances of the spectrum's abscissa, and how many of these a unit has: over the angle as many as it has over time
+    /// on average.
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // samples of a turn
     pub fn by_angle<'x>(&self, x: &'x [f64], fs: f64) -> (Cow<'x, [f64]>, f64) {
         let Self::Varying { first, turns } = self else {
             return (x.into(), fs);
         };
         let x = &x[*first..*first + turns.len()];
-        let (last, all) = (x.len() - 1, turns[turns.len() - 1]);
-        let mut before = 0;
-        let resampled = (0..x.len()).map(|i| {
-            let turn = all * i as f64 / last as f64;
-            while before + 2 < turns.len() && turns[before + 1] <= turn {
-                before += 1;
-            }
-            let (from, to) = (turns[before], turns[before + 1]);
-            cubic(x, before, (turn - from) / (to - from))
-        });
-        (resampled.collect(), last as f64 / all)
+        let all = turns[turns.len() - 1];
+        let rate = (x.len() as f64 / all).ceil() as usize;
+        (resampled(x, turns, rate).into(), rate as f64)
     }
-}
-
-/// Value at a share of the way from one sample to the next, on the cubic through them with the slopes of their neighbours' chords.
-fn cubic(x: &[f64], before: usize, share: f64) -> f64 {
-    let at = |i: usize| x[i.min(x.len() - 1)];
-    let (a, b) = (at(before), at(before + 1));
-    let slopes = [
-        (b - at(before.saturating_sub(1))) / 2.0,
-        (at(before + 2) - a) / 2.0,
-    ];
-    let rise = b - a;
-    let bend = [
-        3.0 * rise - 2.0 * slopes[0] - slopes[1],
-        slopes[0] + slopes[1] - 2.0 * rise,
-    ];
-    a + share * (slopes[0] + share * (bend[0] + share * bend[1]))
 }

@@ -1,4 +1,4 @@
-//! Drag of oil in the balls' way: −½ ρ X C_d (π D²/4) |v| v on a ball, seen from the housing (`docs/model.md`, *Film*).
+//! Drag of oil in the balls' way: −½ ρ X C_d (π D²/4) |v| v on a ball, seen from the housing ([*Film*](crate::equations#film)).
 
 use super::{Account, Damper, Force, ForceSums, Instant, Use};
 use crate::model::{BodyId, Dof, Model};

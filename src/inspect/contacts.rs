@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::base::nulls;
+
 use crate::contact::{ContactForce, Pair, Sink, V2};
 use crate::model::{Model, Race};
 
@@ -12,12 +14,15 @@ pub struct ContactSummary {
     /// Magnitude of the normal force, elastic and damping \[N\].
     pub load: f64,
     /// Angle of the contact against the radial plane, positive in the sense of the nominal contact angle \[rad\]; NaN without load.
+    #[serde(deserialize_with = "nulls::number")]
     pub angle: f64,
     /// Axial place of the zone's middle of force, in the ring's frame \[m\]; NaN without load.
+    #[serde(deserialize_with = "nulls::number")]
     pub zone_centre: f64,
     /// Axial extent of the slices that touch \[m\].
     pub zone_width: f64,
     /// Load-weighted slip speed \[m/s\]; NaN without load.
+    #[serde(deserialize_with = "nulls::number")]
     pub slip: f64,
 }
 
@@ -80,10 +85,7 @@ impl Sink for List {
 }
 
 /// A contact in a few numbers: ball `j` among all balls on a race.
-///
-/// # Panics
-/// If the length of `y` is not [`Model::dim`], or there is no such ball.
-pub fn contact(model: &Model, y: &[f64], j: usize, race: Race) -> ContactSummary {
+pub(crate) fn contact(model: &Model, y: &[f64], j: usize, race: Race) -> ContactSummary {
     let mut sum = Summary::default();
     let side = visit(model, y, j, race, &mut sum);
     sum.contact_summary(race, side)
@@ -167,10 +169,7 @@ impl Sink for Flanks<'_> {
 }
 
 /// The forces of the slices of one contact, in order of ζ; on a defect a slice may appear more than once.
-///
-/// # Panics
-/// If the length of `y` is not [`Model::dim`], or there is no such ball.
-pub fn slice_forces(model: &Model, y: &[f64], j: usize, race: Race) -> Vec<SliceForce> {
+pub(crate) fn slice_forces(model: &Model, y: &[f64], j: usize, race: Race) -> Vec<SliceForce> {
     let mut list = List(Vec::new());
     visit(model, y, j, race, &mut list);
     list.0

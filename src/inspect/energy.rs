@@ -76,10 +76,7 @@ impl Sink for Contacts {
 }
 
 /// Energies and dissipated powers of a state.
-///
-/// # Panics
-/// If the length of `y` is not [`Model::dim`].
-pub fn energy(model: &Model, y: &[f64]) -> Energy {
+pub(crate) fn energy(model: &Model, y: &[f64]) -> Energy {
     let mut energy = Energy::default();
     let layout = model.layout();
     for id in layout.bodies() {
@@ -132,10 +129,7 @@ fn of_tilt(model: &Model, y: &[f64]) -> f64 {
 
 /// Forces of the cage links of a row, positive in tension, or of the pockets of a ring on its balls, positive on one that leads \[N\]; empty
 /// without a cage.
-///
-/// # Panics
-/// If the length of `y` is not [`Model::dim`], or there is no such row.
-pub fn cage_forces(model: &Model, y: &[f64], row: usize) -> Vec<f64> {
+pub(crate) fn cage_forces(model: &Model, y: &[f64], row: usize) -> Vec<f64> {
     if model.rows[row].cage.is_some() {
         return forces::cage::ring::pocket_forces(model, y, row);
     }

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::base::nulls;
+
 use crate::model::{Model, Race};
 use crate::scene::{Doubt, FilmJudged, RingName};
 
@@ -18,18 +20,23 @@ pub struct RaceFilm {
     /// Least thickness, 0.8 h \[m\].
     pub minimum_film: f64,
     /// λ, h over the roughness of both surfaces.
+    #[serde(deserialize_with = "nulls::number")]
     pub lambda_ratio: f64,
     /// Friction coefficient μ at large slip.
+    #[serde(deserialize_with = "nulls::number")]
     pub friction: f64,
     /// Slip v at which friction bends from its rise to μ \[m/s\].
+    #[serde(deserialize_with = "nulls::number")]
     pub slip_scale: f64,
     /// Load of a contact \[N\].
     pub reference_load: f64,
     /// Speed of the rings against each other \[rad/s\].
     pub reference_speed: f64,
     /// The ellipse's length over its width, a/b.
+    #[serde(deserialize_with = "nulls::number")]
     pub ellipticity: f64,
     /// Moes' L.
+    #[serde(deserialize_with = "nulls::number")]
     pub moes: f64,
     /// Whether the film damps.
     #[serde(skip)]

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::base::nulls;
+
 use super::powers::ContactPowers;
 use crate::contact::film::FilmNow;
 use crate::contact::{ContactForce, OilForce, PointForce, Sink, WrenchSum};
@@ -13,8 +15,10 @@ use crate::model::{Dof, Model, Race};
 #[non_exhaustive]
 pub struct Lubrication {
     /// Central films h \[m\]; not a number without an oil that does something.
+    #[serde(deserialize_with = "nulls::pair")]
     pub film: [f64; 2],
     /// λ, the films over the roughness; likewise.
+    #[serde(deserialize_with = "nulls::pair")]
     pub lambda: [f64; 2],
     /// Moment that resists the inner ring's turning against the outer, positive whichever way it turns \[N m\].
     pub friction_torque: f64,
@@ -85,10 +89,7 @@ impl Sink for Resistance {
 }
 
 /// Films and losses of a row in a state.
-///
-/// # Panics
-/// If the length of `y` is not [`Model::dim`], or there is no such row.
-pub fn lubrication(model: &Model, y: &[f64], row: usize) -> Lubrication {
+pub(crate) fn lubrication(model: &Model, y: &[f64], row: usize) -> Lubrication {
     let layout = model.layout();
     let speed = |race: Race| y[layout.speed_at(race.ring(), Dof::Theta)];
     let speed = speed(Race::Inner) - speed(Race::Outer);

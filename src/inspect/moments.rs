@@ -15,10 +15,7 @@ pub(crate) const MOMENTS: [&str; 4] = ["outer.x", "outer.y", "inner.x", "inner.y
 /// Moments about x and y that balls and loads put on outer and inner ring at a time \[s\], each about its centre of mass and across
 /// its axis \[N m\]: of the balls a sum over contacts of −(c_b − c_r) × f, less what turns them. What keeps the ring from tilting
 /// carries them.
-///
-/// # Panics
-/// If the length of `y` is not [`Model::dim`].
-pub fn moments(model: &Model, t: f64, y: &[f64]) -> [[f64; 2]; 2] {
+pub(crate) fn moments(model: &Model, t: f64, y: &[f64]) -> [[f64; 2]; 2] {
     Race::BOTH.map(|race| {
         let mut sum = MomentOnRing::new(model, y, race);
         for j in 0..model.balls.len() {
@@ -31,7 +28,7 @@ pub fn moments(model: &Model, t: f64, y: &[f64]) -> [[f64; 2]; 2] {
 }
 
 /// Wrench of the balls on a ring in a state of all bodies: force along x, y and z \[N\], moment about the ring's centre of mass \[N m\].
-pub fn wrench(model: &Model, y: &[f64], race: Race) -> [f64; 6] {
+pub(crate) fn wrench(model: &Model, y: &[f64], race: Race) -> [f64; 6] {
     let mut sum = MomentOnRing::new(model, y, race);
     let mut force = Vector3::zeros();
     for j in 0..model.balls.len() {

@@ -2,7 +2,7 @@
 
 use crate::base::quantities::{force, number};
 use crate::forces::{self, Damper};
-use crate::inspect::contact;
+use crate::inspect::raw::contact;
 use crate::model::{BodyId, BodyKind, Dof, Model, Race};
 
 /// Elements that are named at most.

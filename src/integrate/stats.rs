@@ -1,6 +1,6 @@
 //! Counts of what happened.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::stops::Plan;
 use super::tableau::Tableau;
@@ -11,7 +11,7 @@ use crate::base::words::{Remembered, Words};
 const STIFF_SHARE: f64 = 3.25 / 3.3066;
 
 /// Effort of an integration so far, and what it has met.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct StepStatistics {
     /// Steps accepted.

@@ -196,7 +196,7 @@ mod tests {
     use crate::scene::presets;
     use std::f64::consts::PI;
 
-    /// Golden: what the model gives of a steel 6205, 8 g, 50 µm, 3·10⁵ N/m and 25 N s/m (model section 19).
+    /// Golden: what the model gives of a steel 6205, 8 g, 50 µm, 3·10⁵ N/m and 25 N s/m.
     #[test]
     fn defaults_of_a_6205() {
         let scene = presets::deep_groove_6205(500.0, 0.0, 1797.0);

@@ -248,7 +248,7 @@ fn hertz(scene: &Scene, row: &Row, race: Race, torus: &Torus, angle: f64) -> Her
     )
 }
 
-/// Geometry and laws of one race (model section 2), and Hertz's contact with it.
+/// Geometry and laws of one race ([*Geometry of a row*](crate::equations#geometry-of-a-row)), and Hertz's contact with it.
 fn pair(scene: &Scene, index: usize, row: &Row, race: Race) -> Result<(Pair, Hertz)> {
     let path = format!("rows[{index}]");
     let angle = row.contact_angle;

@@ -49,7 +49,7 @@ mod tests {
     use super::race_defect;
     use crate::contact::Motion;
     use crate::model::Race;
-    use crate::scene::{Defect, Surface, presets};
+    use crate::scene::{Defect, Patch, Surface, presets};
 
     /// Analytic: a spall as long as the groove is wide is seen wherever a slice may meet it, and hardly further, though the race is not
     /// equally wide along it.
@@ -64,7 +64,12 @@ mod tests {
                 let scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
                 let model = crate::compile(&scene).unwrap();
                 let row = &model.rows[0];
-                let defect = Defect::new(on, 0.0, length, width, 0.3e-3).at_offset(offset);
+                let defect = Defect::of(
+                    Patch::of_width(width).length(length).edge_radius(0.3e-3),
+                    on,
+                    0.0,
+                )
+                .at_offset(offset);
                 let pair = &row.pairs[race];
                 let defect = race_defect(&defect, &scene.rows[0], pair, &row.hertz[race]);
                 let mut widest = 0.0_f64;

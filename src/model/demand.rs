@@ -54,7 +54,7 @@ fn numbers(scene: &Scene) -> usize {
         Width::Profile(profile) => profile.positions.len() + profile.widths.len(),
     });
     let probes = scene.probes.values().map(|probe| match probe {
-        Probe::Slices { times, .. } => times.len(),
+        Probe::Slices(of) => of.times.len(),
         _ => 0,
     });
     let rows = scene.rows.iter().map(|row: &Row| {

@@ -51,7 +51,7 @@ impl Race {
         }
     }
 
-    /// σ of model section 2: +1 where a ball touches outwards, −1 where it touches inwards.
+    /// σ of [*Geometry of a row*](crate::equations#geometry-of-a-row): +1 where a ball touches outwards, −1 where it touches inwards.
     #[inline]
     pub const fn sigma(self) -> f64 {
         match self {

@@ -1,4 +1,4 @@
-//! The oil films of rows that have a lubricant (model section 12).
+//! The oil films of rows that have a lubricant ([*Film*](crate::equations#film)).
 
 use super::compile::classify;
 use super::scales::Bottom;
@@ -153,7 +153,7 @@ fn drag(diameter: f64, density: f64, fill: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Literature: model section 12.9, full oil of a 6205 at 1797 1/min, whose balls go round at 3.0 m/s half as fast as the
+    /// Literature: full oil of a 6205 at 1797 1/min, whose balls go round at 3.0 m/s half as fast as the
     /// shaft's angle: 0.023 N.
     #[test]
     fn full_oil_holds_a_ball_back() {

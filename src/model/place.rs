@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::at_rest::{AtRest, HeaviestContact};
 use crate::base::error::{Error, Result};
 use crate::base::quantities;
-use crate::scene::{AxialOffset, Damage, Defect, Row, Scene, Surface};
+use crate::scene::{AxialOffset, Damage, Defect, Patch, Row, Scene, SteepPatch, Surface};
 
 /// Origin of the number of a defect's axial place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -41,7 +41,7 @@ pub(crate) fn place<'s>(
     rest: &dyn AtRest,
 ) -> Result<(Cow<'s, Scene>, BTreeMap<String, Placed>)> {
     let is_given = |defect: &Defect| {
-        let waits = matches!(defect.damage, Damage::SteepPatch { .. });
+        let waits = matches!(defect.damage, Damage::SteepPatch(_));
         defect.axial_offset.number().is_some() && !waits
     };
     let mut from: BTreeMap<String, Placed> = scene
@@ -82,19 +82,19 @@ fn in_nanometres(number: f64) -> f64 {
     (number * FINEST).round() / FINEST + 0.0
 }
 
-/// The patch whose fault circles unload a contact of a half-width \[m\] as solids between steep walls do (model section 15.5); none for a
-/// damage without such walls.
+/// The patch whose fault circles unload a contact of a half-width \[m\] as solids between steep walls do
+/// ([*Defects*](crate::equations#defects)); none for a damage without such walls.
 fn between_walls(
     name: &str,
     damage: &Damage,
     row: &Row,
     half_width: Option<f64>,
 ) -> Result<Option<Damage>> {
-    let Damage::SteepPatch {
+    let Damage::SteepPatch(SteepPatch {
         length,
         width,
         floor,
-    } = damage
+    }) = damage
     else {
         return Ok(None);
     };
@@ -114,12 +114,13 @@ fn between_walls(
             allowed,
         ));
     }
-    Ok(Some(Damage::Patch {
+    let patch = Patch {
         length: *length,
         width: in_nanometres(width + half).into(),
         edge_radius: row.ball_diameter / 4.0,
         floor: floor.clone(),
-    }))
+    };
+    Ok(Some(patch.into()))
 }
 
 /// Place where a contact would run at the nominal contact angle \[m\]: at ±R sin α₀, on the inner race with its preload.

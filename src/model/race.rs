@@ -1,4 +1,5 @@
-//! Geometry of a race (model section 2): a torus, a gothic arch of two, or a curve through points.
+//! Geometry of a race ([*Geometry of a row*](crate::equations#geometry-of-a-row)): a torus, a gothic arch of two, or a curve through
+//! points.
 
 use super::Race;
 use super::body::groove_radius;

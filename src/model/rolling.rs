@@ -1,4 +1,4 @@
-//! How a ball that spins freely rolls on both races (model section 13.5).
+//! How a ball that spins freely rolls on both races ([*Rings that tilt*](crate::equations#rings-that-tilt-balls-that-spin-freely)).
 //!
 //! ```text
 //! ω_c d + ω_z R cos α_o − ω_n R sin α_o = 0
@@ -120,7 +120,8 @@ mod tests {
         }
     }
 
-    /// Literature: Jones' and Harris' speeds with control by either race (model section 13.10).
+    /// Literature: Jones' and Harris' speeds with control by either race ([*Rings that
+    /// tilt*](crate::equations#rings-that-tilt-balls-that-spin-freely)).
     #[test]
     fn control_by_a_race_is_jones() {
         let between = between();
@@ -160,7 +161,7 @@ mod tests {
         }
     }
 
-    /// Limits: without contact angles a ball spins about the axis at the speed of section 8.
+    /// Limits: without contact angles a ball spins about the axis at the speed of rolling.
     #[test]
     fn in_the_plane_it_spins_about_the_axis() {
         let between = Between {

@@ -1,4 +1,5 @@
-//! Waves of surfaces as they act in contacts: averaged over the contact, and texture drawn from its seed (model section 14).
+//! Waves of surfaces as they act in contacts: averaged over the contact, and texture drawn from its seed
+//! ([*Defects*](crate::equations#defects)).
 
 use std::f64::consts::TAU;
 
@@ -251,7 +252,7 @@ fn mixed(x: u64) -> u64 {
     z ^ (z >> 31)
 }
 
-/// The truth is model section 14, and sums of cosines.
+/// The truth is the formulas above, and sums of cosines.
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -14,16 +14,25 @@ pub(super) fn record(error: &Error) -> Value {
             path,
             value,
             allowed,
+            ..
+        }
+        | Error::Argument {
+            path,
+            value,
+            allowed,
+            ..
         }
         | Error::Record {
             path,
             value,
             allowed,
+            ..
         }
         | Error::Snapshot {
             path,
             value,
             allowed,
+            ..
         } => ("SceneError", json!([path, value, allowed])),
         Error::Equilibrium { .. } => ("EquilibriumError", json!([message])),
         Error::Integration {
@@ -36,7 +45,9 @@ pub(super) fn record(error: &Error) -> Value {
             "IntegrationError",
             json!([message, time, step, body, contacts]),
         ),
-        Error::Budget { time, name, limit } => ("BudgetError", json!([message, time, name, limit])),
+        Error::Budget {
+            time, name, limit, ..
+        } => ("BudgetError", json!([message, time, name, limit])),
         Error::Memory {
             needed, available, ..
         } => ("MemoryLimitError", json!([message, needed, available])),

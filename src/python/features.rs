@@ -105,6 +105,27 @@ pub(super) fn squared_envelope<'py>(
     Ok(found.or_raise(py)?.into_pyarray(py))
 }
 
+/// A signal at equal steps of the shaft's angle \[rad\]: turns and values.
+#[pyfunction]
+pub(super) fn by_order<'py>(
+    py: Python<'py>,
+    x: Array<'py>,
+    angle: Array<'py>,
+    per_turn: Option<usize>,
+) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>)> {
+    let (x, angle) = (copied(&x), copied(&angle));
+    let found = py.detach(|| ballrace::by_order(&x, &angle, per_turn));
+    let (turn, value) = found.or_raise(py)?;
+    Ok((turn.into_pyarray(py), value.into_pyarray(py)))
+}
+
+/// First sample and end of the part in which a shaft turns, by its angle \[rad\].
+#[pyfunction]
+pub(super) fn turning(angle: Array<'_>) -> (usize, usize) {
+    let part = ballrace::turning(&copied(&angle));
+    (part.start, part.end)
+}
+
 /// Amplitudes under a Hann window, of a signal padded with zeros to a length.
 #[pyfunction]
 pub(super) fn amplitudes<'py>(
@@ -146,7 +167,7 @@ pub(super) fn run_features(
     let scene = Scene::from_json(scene).or_raise(py)?;
     let options = options_from(options).or_raise(py)?;
     let kinematics: Vec<RowKinematics> = serde_json::from_str(kinematics)
-        .map_err(|e| Error::scene("kinematics", kinematics, e.to_string()))
+        .map_err(|e| Error::argument("kinematics", kinematics, e.to_string()))
         .or_raise(py)?;
     let asked = ballrace::feature_columns(&scene, &options).or_raise(py)?;
     let mut needed = asked.clone();
@@ -192,7 +213,7 @@ pub(super) fn signal_features(
 
 /// Options of the features from JSON.
 pub(super) fn options_from(text: &str) -> ballrace::Result<FeatureOptions> {
-    serde_json::from_str(text).map_err(|e| Error::scene("features", text, e.to_string()))
+    serde_json::from_str(text).map_err(|e| Error::argument("features", text, e.to_string()))
 }
 
 fn copied(x: &Array<'_>) -> Vec<f64> {

@@ -23,8 +23,8 @@ mod _core {
     use super::campaign::{available_threads, campaign, check_run, instruction_sets};
     #[pymodule_export]
     use super::features::{
-        amplitudes, axis_ratio, check_samples, feature_columns, hann_weighted, orders,
-        rolling_frequencies, run_features, signal_features, squared_envelope,
+        amplitudes, axis_ratio, by_order, check_samples, feature_columns, hann_weighted, orders,
+        rolling_frequencies, run_features, signal_features, squared_envelope, turning,
     };
     #[pymodule_export]
     use super::oil::{named_oils, oil};

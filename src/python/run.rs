@@ -51,7 +51,7 @@ impl CompiledScene {
             "rolling" => Start::Rolling,
             _ => {
                 let allowed = "\"equilibrium\" or \"rolling\"";
-                return Err(Error::scene("start", format!("{kind:?}"), allowed)).or_raise(py);
+                return Err(Error::argument("start", format!("{kind:?}"), allowed)).or_raise(py);
             }
         };
         let model = Arc::clone(&self.0);
@@ -101,7 +101,7 @@ impl CompiledScene {
                 "an array of shape ({},), one number per state",
                 self.0.dim()
             );
-            Err(Error::scene(
+            Err(Error::argument(
                 "y",
                 format!("an array of shape ({},)", y.as_array().len()),
                 wanted,

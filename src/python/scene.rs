@@ -36,7 +36,7 @@ pub(super) fn scene_doubts(py: Python<'_>, text: &str) -> PyResult<Vec<String>> 
 #[pyfunction]
 pub(super) fn scene_replace(py: Python<'_>, text: &str, changes: &str) -> PyResult<String> {
     let changes: Vec<(String, serde_json::Value)> = serde_json::from_str(changes)
-        .map_err(|e| Error::scene("changes", changes, e.to_string()))
+        .map_err(|e| Error::argument("changes", changes, e.to_string()))
         .or_raise(py)?;
     let changes: Vec<_> = changes
         .iter()
@@ -54,7 +54,7 @@ pub(super) fn time_values<'py>(
     times: &Bound<'py, PyArray1<f64>>,
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
     let function: TimeFunction = serde_json::from_str(function)
-        .map_err(|e| Error::scene("function", function, e.to_string()))
+        .map_err(|e| Error::argument("function", function, e.to_string()))
         .or_raise(py)?;
     let values: Vec<f64> = times
         .readonly()

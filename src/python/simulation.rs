@@ -117,7 +117,7 @@ impl GoingRun {
             "inner" => RingName::Inner,
             _ => {
                 let allowed = "\"outer\" or \"inner\"";
-                return Err(Error::scene("ring", format!("{ring:?}"), allowed)).or_raise(py);
+                return Err(Error::argument("ring", format!("{ring:?}"), allowed)).or_raise(py);
             }
         };
         let wrench = self.with(py, |simulation| Ok(simulation.wrench(ring)))?;
@@ -147,7 +147,7 @@ impl GoingRun {
     /// Replaces fields by dotted paths; `changes` is a JSON list of pairs of path and value.
     fn change(&self, py: Python<'_>, changes: &str) -> PyResult<()> {
         let changes: Vec<(String, serde_json::Value)> = serde_json::from_str(changes)
-            .map_err(|e| Error::scene("changes", changes, e.to_string()))
+            .map_err(|e| Error::argument("changes", changes, e.to_string()))
             .or_raise(py)?;
         self.answering(py, None, move |simulation, _| {
             let each = changes.iter();
@@ -228,7 +228,7 @@ impl GoingRun {
 
 /// Nothing goes on after the end.
 fn over() -> Error {
-    Error::scene(
+    Error::argument(
         "simulation",
         "finished",
         "one that goes on: begin another, or restore a snapshot",

@@ -58,7 +58,11 @@ fn control(name: &str) -> Result<RaceControl> {
         "outer" => Ok(RaceControl::Outer),
         other => {
             let allowed = "\"friction\" or \"outer\"";
-            Err(Error::scene("race_control", format!("{other:?}"), allowed))
+            Err(Error::argument(
+                "race_control",
+                format!("{other:?}"),
+                allowed,
+            ))
         }
     }
 }
@@ -161,7 +165,7 @@ pub(super) fn fault_frequencies(
     let did: Option<RowKinematics> = kinematics
         .map(serde_json::from_str)
         .transpose()
-        .map_err(|e| Error::scene("kinematics", kinematics.unwrap_or_default(), e.to_string()))
+        .map_err(|e| Error::argument("kinematics", kinematics.unwrap_or_default(), e.to_string()))
         .or_raise(py)?;
     let found = solved(py, scene, move |scene| {
         bindings::frequencies_at(scene, row, speeds, control, did.as_ref())

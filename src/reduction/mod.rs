@@ -45,7 +45,7 @@ pub struct Reduction {
 }
 
 /// Degrees of freedom that a run leaves out.
-#[derive(Debug, Clone, PartialEq, Eq, serde::Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[non_exhaustive]
 pub struct Omission {
     /// Name of the directions, such as `z`.
@@ -57,7 +57,7 @@ pub struct Omission {
 }
 
 /// A reduction that the scene does not allow.
-#[derive(Debug, Clone, PartialEq, Eq, serde::Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[non_exhaustive]
 pub struct Obstacle {
     /// The reduction.

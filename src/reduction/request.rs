@@ -16,7 +16,7 @@ pub(super) fn axial_places(model: &Model, start: &[f64]) -> Result<AxialPlaces, 
         let (mut sum, mut all, mut mean) = (0.0, 0.0, 0.0);
         for j in row.balls() {
             let [outer, inner] =
-                Race::BOTH.map(|race| inspect::contact(model, start, j, race).load);
+                Race::BOTH.map(|race| inspect::raw::contact(model, start, j, race).load);
             let load = outer.min(inner);
             let z = z(BodyId::ball(j));
             sum += load * z;
@@ -38,7 +38,7 @@ pub(super) fn idle_row(model: &Model, start: &[f64]) -> Result<usize, String> {
         .rows
         .iter()
         .map(|row| {
-            let load = |j| inspect::contact(model, start, j, Race::Inner).load;
+            let load = |j| inspect::raw::contact(model, start, j, Race::Inner).load;
             row.balls().map(load).sum()
         })
         .collect();

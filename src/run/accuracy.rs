@@ -8,7 +8,7 @@
 use super::step_limit;
 use crate::base::error::{Error, Result};
 use crate::model::{Body, Dof, Model};
-use crate::scene::{Component, Contact, Method, Probe, Scene, Slices};
+use crate::scene::{Component, Contact, Method, MotionProbe, Scene, Slices};
 use crate::signals::Accuracy;
 use crate::statics::compile;
 use crate::statics::start::{Start, start};
@@ -157,11 +157,9 @@ impl<'a, 'b> Pilots<'a, 'b> {
         let mut scene = scene.clone();
         let moves = |body: &&Body| body.degrees[Dof::Y].is_free();
         let body = model.bodies.iter().find(moves);
-        let probe = Probe::Motion {
-            body: body.unwrap_or(&model.bodies[0]).name.clone(),
-            components: Some(vec![Component::Ay]),
-        };
-        scene.probes = [("pilot".to_owned(), probe)].into();
+        let body = &body.unwrap_or(&model.bodies[0]).name;
+        let probe = MotionProbe::of(body).components([Component::Ay]);
+        scene.probes = [("pilot".to_owned(), probe.into())].into();
         Ok(Self {
             scene,
             from: Start::State(start(model, from)?),

@@ -23,7 +23,7 @@ pub(crate) fn within<T>(
     };
     if !clock::is_there() {
         let allowed = "None where the system has no clock, or one given by set_clock";
-        return Err(Error::scene("time_limit", seconds, allowed));
+        return Err(Error::argument("time_limit", seconds, allowed));
     }
     let deadline = clock::now() + seconds;
     let is_over = || clock::now() >= deadline;

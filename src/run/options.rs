@@ -81,10 +81,10 @@ impl Run {
     /// Reads a run from JSON and checks it.
     ///
     /// # Errors
-    /// [`Error::Scene`] names the first field that is unknown or not usable.
+    /// [`Error::Argument`] names the first field that is unknown or not usable.
     pub fn from_json(text: &str) -> Result<Self> {
         let document: Value = serde_json::from_str(text)
-            .map_err(|e| Error::scene("run", "not JSON", e.to_string()))?;
+            .map_err(|e| Error::argument("run", "not JSON", e.to_string()))?;
         let run: Self = interpret(&document, "run")?;
         run.validate()?;
         Ok(run)
@@ -103,7 +103,7 @@ impl Run {
         let count = (self.duration * self.fs).round();
         if count < 1.0 {
             let allowed = format!("at least one sample in {} s", self.duration);
-            return Err(Error::scene("fs", self.fs, allowed));
+            return Err(Error::argument("fs", self.fs, allowed));
         }
         // At most 1e15 by the limits of duration and rate.
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
@@ -113,14 +113,14 @@ impl Run {
     /// Checks what does not depend on its scene.
     ///
     /// # Errors
-    /// [`Error::Scene`] names the field.
+    /// [`Error::Argument`] names the field.
     pub fn validate(&self) -> Result<()> {
         if !(self.duration > 0.0 && self.duration <= Self::OPEN) {
             let allowed = "above 0 and at most 1e6 s";
-            return Err(Error::scene("duration", self.duration, allowed));
+            return Err(Error::argument("duration", self.duration, allowed));
         }
         if !(self.fs > 0.0 && self.fs <= 1e9) {
-            return Err(Error::scene("fs", self.fs, "above 0 and at most 1e9 Hz"));
+            return Err(Error::argument("fs", self.fs, "above 0 and at most 1e9 Hz"));
         }
         within(
             "rtol",
@@ -145,11 +145,11 @@ impl Run {
         )?;
         if self.max_steps == Some(0) {
             let allowed = "at least 1 step, or absent for no limit";
-            return Err(Error::scene("max_steps", 0, allowed));
+            return Err(Error::argument("max_steps", 0, allowed));
         }
         if let (Some(_), Some(rtol)) = (self.accuracy, self.rtol) {
             let allowed = "absent where `accuracy` is given, which chooses it";
-            return Err(Error::scene("rtol", rtol, allowed));
+            return Err(Error::argument("rtol", rtol, allowed));
         }
         self.samples().map(|_| ())
     }
@@ -157,7 +157,7 @@ impl Run {
 
 fn within(name: &str, value: Option<f64>, range: RangeInclusive<f64>, allowed: &str) -> Result<()> {
     match value {
-        Some(value) if !range.contains(&value) => Err(Error::scene(name, value, allowed)),
+        Some(value) if !range.contains(&value) => Err(Error::argument(name, value, allowed)),
         _ => Ok(()),
     }
 }
@@ -257,7 +257,7 @@ mod tests {
             (r#"{"method": "euler"}"#, "method"),
             (r#"{"bandwidth": "none"}"#, "bandwidth"),
         ] {
-            let Err(Error::Scene { path, .. }) = Run::from_json(text) else {
+            let Err(Error::Argument { path, .. }) = Run::from_json(text) else {
                 panic!("{text}");
             };
             assert_eq!(path, field);

@@ -41,13 +41,13 @@ pub(super) fn provenance(run: &Run, done: Done<'_>) -> Provenance {
     Provenance {
         axis,
         at_rest,
-        version: env!("CARGO_PKG_VERSION"),
+        version: env!("CARGO_PKG_VERSION").into(),
         schema: SCHEMA,
         method: method::name(solver.method).to_owned(),
         rtol: solver.rtol,
         accuracy: done.prepared.accuracy,
         max_step: Some(done.options.max_step).filter(|h| h.is_finite()),
-        start,
+        start: start.into(),
         duration: run.duration,
         threads: done.threads,
         states: done.reduction.as_ref().map_or(model.dim(), Reduction::dim),
@@ -55,9 +55,9 @@ pub(super) fn provenance(run: &Run, done: Done<'_>) -> Provenance {
             .reduction
             .as_ref()
             .map_or_else(Vec::new, |reduction| reduction.omissions().to_vec()),
-        simd: model.instructions().name(),
+        simd: model.instructions().name().into(),
         distrust: done.distrust,
-        architecture: std::env::consts::ARCH,
+        architecture: std::env::consts::ARCH.into(),
         bandwidth: done.sampling.bandwidth,
         oversampling: done.sampling.oversampling,
         settled: done.prepared.settled.seconds,

@@ -30,9 +30,9 @@ pub(crate) fn trusted(model: Model) -> (Model, Option<Distrust>) {
     let used = below.into_iter().find(|instructions| agrees(*instructions));
     let used = used.unwrap_or(InstructionSet::BASELINE);
     let distrust = (used != instructions).then(|| Distrust {
-        instructions: instructions.name(),
-        primitive: CONTACTS,
-        used: used.name(),
+        instructions: instructions.name().into(),
+        primitive: CONTACTS.into(),
+        used: used.name().into(),
     });
     (
         model.with_instructions(used),

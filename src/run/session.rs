@@ -197,15 +197,12 @@ impl<'s> Session<'s> {
         let now = self.trajectory.time();
         if !(until > now && until.is_finite()) {
             let allowed = format!("later than {now} s, where the simulation stands");
-            return Err(Error::scene("until", until, allowed));
+            return Err(Error::argument("until", until, allowed));
         }
         let mut scene = self.prepared.scene.clone();
         let mut compiled = self.prepared.compiled_with.clone();
         for (path, [place, speed]) in motions {
-            let Some(motion) = scene.given_motion(path) else {
-                let allowed = "a given motion of the scene, such as inner_ring.support.x.given";
-                return Err(Error::scene(*path, "not there", allowed));
-            };
+            let motion = scene.motion_to_set(path)?;
             let spline = Profile::Spline {
                 times: vec![now, until],
                 values: vec![motion.at(now), *place],
@@ -299,7 +296,7 @@ impl<'s> Session<'s> {
 fn check_kept(before: &Model, after: &Model) -> Result<()> {
     let others =
         "changes that keep bodies, held directions and probes; begin another simulation for others";
-    let refuse = |what: &str| Err(Error::scene("changes", what, others));
+    let refuse = |what: &str| Err(Error::argument("changes", what, others));
     let held = |model: &Model| -> Vec<bool> {
         let held = |race: Race| move |dof: Dof| model.rings[race].given.of(dof).is_some();
         let degrees = model.bodies.iter().flat_map(|body| body.degrees);

@@ -14,7 +14,7 @@ const ROOM: f64 = 4.0;
 /// How many threads share an evaluation: one where the crate is built without any.
 pub(crate) fn threads(model: &Model, asked: usize) -> Result<usize> {
     if asked > 1024 {
-        return Err(Error::scene(
+        return Err(Error::argument(
             "threads",
             asked,
             "0 to 1024; 0: chosen automatically",

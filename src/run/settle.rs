@@ -1,4 +1,4 @@
-//! The decay of a start's transient before t = 0 (`docs/model.md`, *How a run begins, and how it goes on*).
+//! The decay of a start's transient before t = 0 ([*How a run begins*](crate::equations#how-a-run-begins-and-how-it-goes-on)).
 //!
 //! An equilibrium does not include friction, and places unloaded balls only as `statics::fallen` estimates: in a fast 6205 the outer
 //! ring's vibration is steady from three quarters of a turn of the cage on. So a run begins a little earlier, with loads and drive as they
@@ -177,7 +177,7 @@ fn needed(model: &Model, y0: &[f64]) -> f64 {
 }
 
 fn has_loose_balls(model: &Model, y: &[f64], row: usize) -> bool {
-    let is_loose = |j| inspect::contact(model, y, j, Race::Inner).load == 0.0;
+    let is_loose = |j| inspect::raw::contact(model, y, j, Race::Inner).load == 0.0;
     model.rows[row].balls().any(is_loose)
 }
 
@@ -187,7 +187,7 @@ fn decay(model: &Model, y: &[f64], race: Race) -> f64 {
     let damping = |row: &RowModel| {
         let loads = row
             .balls()
-            .map(|j| inspect::contact(model, y, j, race).load);
+            .map(|j| inspect::raw::contact(model, y, j, race).load);
         0.5 * row.pairs[race].law.damping.rate() * loads.sum::<f64>()
     };
     let contacts = model.rows.iter().map(damping).sum::<f64>();
@@ -320,7 +320,7 @@ impl Turned {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Defect, Lubricant, Spin, presets};
+    use crate::scene::{Cap, Defect, Lubricant, Spin, Surface, presets};
 
     /// Analytic: a rotation has Euler parameters of length one, and they change by ½ ω e: after thousands of steps too, which let
     /// them drift by some 1e-6 where nothing returns them.
@@ -329,7 +329,12 @@ mod tests {
         let mut scene = presets::deep_groove_6205(500.0, 500.0, 1797.0);
         scene.lubricant = Some(Lubricant::named("vg68", 50.0 + 273.15));
         scene.spin = Some(Spin::Free);
-        let cap = Defect::cap(-1.57, 0.5e-3, 0.3e-3).on_ball(3);
+        let cap = Defect::of(
+            Cap::of_width(0.5e-3).edge_radius(0.3e-3),
+            Surface::Ball,
+            -1.57,
+        )
+        .on_ball(3);
         scene.defects.insert("cap".to_owned(), cap.at_offset(0.0));
         let run = Run {
             settle: Some(0.03),

@@ -21,11 +21,12 @@ use crate::signals::{Block, BlockSink, Keep, Signals};
 /// ```
 ///
 /// # Errors
-/// [`Error::Scene`] for bad input, [`Error::Memory`] for more samples than fit, [`Error::Equilibrium`] from the
+/// [`Error::Scene`], [`Error::Argument`] for bad input, [`Error::Memory`] for more samples than fit, [`Error::Equilibrium`] from the
 /// start, [`Error::Integration`] where the integration cannot go on, [`Error::Budget`] where it costs more than the run
 /// allows.
 ///
 /// [`Error::Scene`]: crate::Error::Scene
+/// [`Error::Argument`]: crate::Error::Argument
 /// [`Error::Memory`]: crate::Error::Memory
 /// [`Error::Equilibrium`]: crate::Error::Equilibrium
 /// [`Error::Integration`]: crate::Error::Integration

@@ -153,7 +153,7 @@ impl Simulation {
     pub fn contacts(&self) -> Vec<[ContactSummary; 2]> {
         let (balls, y) = (0..self.model().balls.len(), self.state());
         at_films_of(self.model(), y, |model| {
-            let of = |ball| Race::BOTH.map(|race| inspect::contact(model, y, ball, race));
+            let of = |ball| Race::BOTH.map(|race| inspect::raw::contact(model, y, ball, race));
             balls.map(of).collect()
         })
     }
@@ -162,7 +162,7 @@ impl Simulation {
     pub fn wrench(&self, ring: RingName) -> [f64; 6] {
         let y = self.state();
         at_films_of(self.model(), y, |model| {
-            inspect::wrench(model, y, ring.into())
+            inspect::raw::wrench(model, y, ring.into())
         })
     }
 
@@ -177,7 +177,7 @@ impl Simulation {
     /// Goes on to a time \[s\].
     ///
     /// # Errors
-    /// [`Error::Scene`] for a time that is over or beyond the duration of the run; [`Error::Integration`] where the motion
+    /// [`Error::Argument`] for a time that is over or beyond the duration of the run; [`Error::Integration`] where the motion
     /// cannot go on, and [`Error::Budget`] where it may not: then for good.
     pub fn advance_to(&mut self, time: f64) -> Result<()> {
         self.advance_with_progress(time, &mut |_| ControlFlow::Continue(()))
@@ -197,7 +197,7 @@ impl Simulation {
         if !(time >= now && time <= end) {
             let allowed =
                 format!("from {now} s, where the simulation stands, to its end at {end} s");
-            return Err(Error::scene("t", time, allowed));
+            return Err(Error::argument("t", time, allowed));
         }
         let begins = self.session.trajectory.begins();
         self.go(time, false, &mut |share| {
@@ -221,7 +221,7 @@ impl Simulation {
     /// smaller may press balls into races.
     ///
     /// # Errors
-    /// [`Error::Scene`] names the field; the simulation is then as it was.
+    /// [`Error::Scene`] names the field, [`Error::Argument`] what cannot be changed; the simulation is then as it was.
     pub fn change(&mut self, changes: &[(&str, Value)]) -> Result<()> {
         self.check()?;
         let scene = self.scene().with(changes)?;
@@ -291,8 +291,8 @@ impl Simulation {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Scene`] names the path that is no given motion, a place that is too far, or a time that is over; the simulation is
-    /// then as it was.
+    /// [`Error::Scene`] names the path that is no given motion, or a place that is too far, [`Error::Argument`] a time that is over; the simulation
+    /// is then as it was.
     pub fn set_motions(&mut self, motions: &[(&str, [f64; 2])], until: f64) -> Result<()> {
         self.check()?;
         self.session.set_motions(motions, until)
@@ -301,7 +301,7 @@ impl Simulation {
     /// Ends the run here: the samples that were not taken, statistics and provenance.
     ///
     /// # Errors
-    /// [`Error::Scene`] before the first sample, else as [`Self::advance_to`].
+    /// [`Error::Argument`] before the first sample, else as [`Self::advance_to`].
     pub fn finish(self) -> Result<Signals> {
         self.finish_with_progress(&mut |_| ControlFlow::Continue(()))
     }
@@ -334,7 +334,7 @@ impl Simulation {
             return Ok(());
         }
         let allowed = "above 0, where there is a record: advance it first";
-        Err(Error::scene("t", self.time(), allowed))
+        Err(Error::argument("t", self.time(), allowed))
     }
 
     fn go(

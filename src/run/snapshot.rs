@@ -139,11 +139,8 @@ fn check_names(named: Option<&Value>, forces: &RingForces) -> Result<()> {
         "the forces of the snapshot's scene ({}), given to Snapshot::from_json_with",
         list(&of_scene)
     );
-    Err(Error::scene(
-        "snapshot.scene.ring_forces",
-        list(&given),
-        allowed,
-    ))
+    let path = "snapshot.scene.ring_forces";
+    Err(refused_at(path, &list(&given), allowed))
 }
 
 /// Refuses what another version has written, whose motion would not go on as it was.

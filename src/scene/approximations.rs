@@ -5,8 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::{Drive, Mount, Scene};
 use crate::base::error::{Error, Result};
 
-/// Simplifications that change the answer, all off by default. What each costs in accuracy is measured in
-/// `benches/records.md`; [`crate::explain()`] offers those that apply to a scene.
+/// Simplifications that change the answer, all off by default; [`crate::explain()`] offers those that apply to a scene.
 // Each is asked for by itself.
 #[allow(clippy::struct_excessive_bools)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]

@@ -6,7 +6,7 @@ use super::absent;
 use super::ring::Support;
 use super::{Contact, Friction, Lubricant, Material, Texture, defaults};
 
-/// Row of balls between two grooves (geometry of `docs/model.md`, *Geometry of a row*).
+/// Row of balls between two grooves (geometry of [*Geometry of a row*](crate::equations#geometry-of-a-row)).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]

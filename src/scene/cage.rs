@@ -117,7 +117,7 @@ impl<'de> Deserialize<'de> for Cage {
     }
 }
 
-/// Springs that keep the centres of neighbouring balls of a row at their distance (model section 6).
+/// Springs that keep the centres of neighbouring balls of a row at their distance ([*Cage*](crate::equations#cage-supports-loads-drive)).
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct CageLinks {

@@ -1,13 +1,14 @@
 //! Bearings by their designations: the table of the Python package, embedded (feature `catalogue`).
 //!
-//! Seals, cages, clearances and makers are no part of a name here; [`all`] lists what there is.
+//! A name here is a bearing's own, `6205` or `7208B`: seals, cages, clearances and makers are no part of it, and are refused with the name
+//! that is; [`all`] lists what there is.
 
 use std::sync::LazyLock;
 
 use serde::{Deserialize, Serialize};
 
+use super::Row;
 use super::expected::nearest;
-use super::{Row, RowGeometry};
 use crate::base::error::{Error, Result};
 
 /// One line a bearing: millimetres, degrees, newtons.
@@ -90,17 +91,8 @@ impl Bearing {
         })
     }
 
-    /// Geometry of a row, on which fault frequencies depend, at the nominal contact angle.
-    pub fn geometry(&self) -> RowGeometry {
-        RowGeometry {
-            ball_count: self.ball_count as f64,
-            ball_diameter: self.ball_diameter,
-            pitch_diameter: self.pitch_diameter,
-            contact_angle: self.contact_angle,
-        }
-    }
-
-    /// Row of the bearing for a scene, with conformities of 0.53 and 0.52, which are assumed.
+    /// Row of the bearing for a scene, with conformities of 0.53 and 0.52, which are assumed. Fault frequencies depend on its
+    /// [`Row::geometry`].
     pub fn row(&self) -> Row {
         let [outer, inner] = CONFORMITIES;
         let mut row = Row::new(
@@ -125,27 +117,44 @@ pub fn all() -> &'static [Bearing] {
 /// ```
 /// use ballrace::scene::catalogue;
 /// let bearing = catalogue::find("6205")?;
-/// let rates = bearing.geometry().orders().at(1797.0 / 60.0);
+/// let rates = bearing.row().geometry().orders().at(1797.0 / 60.0);
 /// assert!((rates.bpfo - 107.36).abs() < 0.01); // Hz
 /// # Ok::<(), ballrace::Error>(())
 /// ```
 ///
 /// # Errors
-/// [`Error::Scene`] at `designation` names the one that may be meant.
+/// [`Error::Argument`] at `designation` names the one that may be meant; of a name with suffixes, as `6205-2RS/C3`, the one without.
 pub fn find(designation: &str) -> Result<&'static Bearing> {
     let wanted = designation.trim();
     let mut known = BEARINGS.iter();
     let found = known.find(|bearing| bearing.designation.eq_ignore_ascii_case(wanted));
     found.ok_or_else(|| {
-        let names: Vec<&str> = BEARINGS.iter().map(|of| of.designation.as_str()).collect();
-        let perhaps = nearest(wanted, &names).map(|name| format!(", perhaps {name}"));
-        let allowed = format!(
-            "one of the {} designations of the catalogue{}",
-            names.len(),
-            perhaps.unwrap_or_default()
-        );
-        Error::scene("designation", designation, allowed)
+        let allowed = match bare(wanted) {
+            Some(bare) => format!("without suffixes for seals, cage, clearance and maker: {bare}"),
+            None => {
+                let names: Vec<&str> = BEARINGS.iter().map(|of| of.designation.as_str()).collect();
+                let perhaps = nearest(wanted, &names).map(|name| format!(", perhaps {name}"));
+                format!(
+                    "one of the {} designations of the catalogue{}",
+                    names.len(),
+                    perhaps.unwrap_or_default()
+                )
+            }
+        };
+        Error::argument("designation", designation, allowed)
     })
+}
+
+/// The longest designation with which a longer name begins, up to a sign or letters that stand after its digits.
+fn bare(name: &str) -> Option<&'static str> {
+    let known = BEARINGS.iter().map(|bearing| bearing.designation.as_str());
+    let begins = known.filter(|of| {
+        let head = name.get(..of.len());
+        let rest = name.get(of.len()..).and_then(|rest| rest.chars().next());
+        head.is_some_and(|head| head.eq_ignore_ascii_case(of))
+            && rest.is_some_and(|next| !next.is_ascii_digit())
+    });
+    begins.max_by_key(|of| of.len())
 }
 
 #[cfg(test)]
@@ -173,5 +182,30 @@ mod tests {
             refused.starts_with("designation = 62055") && refused.contains("perhaps 6205"),
             "{refused}"
         );
+    }
+
+    /// The longest name that is the bearing's own is named: seals, cages, clearances and makers may stand behind it.
+    #[test]
+    fn suffixes_are_refused_by_the_name_without_them() {
+        for (name, bare) in [
+            ("6205-2RS/C3", "6205"),
+            ("6205zz", "6205"),
+            ("6205 2RSR", "6205"),
+            ("7208B-TVP", "7208B"),
+            ("7208b.tvp", "7208B"),
+        ] {
+            let refused = find(name).unwrap_err().to_string();
+            let expected = format!(
+                "designation = {name}: without suffixes for seals, cage, clearance and maker: {bare}"
+            );
+            assert_eq!(refused, expected);
+        }
+        for name in ["620512", "SKF 6205", ""] {
+            let refused = find(name).unwrap_err().to_string();
+            assert!(
+                refused.contains("designations of the catalogue"),
+                "{refused}"
+            );
+        }
     }
 }

@@ -2,12 +2,12 @@
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use super::damage::{Damage, DefectDocument};
+use super::damage::{Cap, Damage, DefectDocument, Patch, Pit};
 use super::document::at_field;
 use super::surface::{AxialOffset, Surface};
 use super::width::Width;
 
-/// A defect of one body (`docs/model.md`, *Defects*). It turns with its body.
+/// A defect of one body ([*Defects*](crate::equations#defects)). It turns with its body.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Defect {
@@ -26,35 +26,33 @@ pub struct Defect {
 }
 
 impl Defect {
-    /// A damage of row 0 where contacts run, of a ball on ball 0: its surface and angle \[rad\]. Its sizes have names, which no other
-    /// constructor here has.
+    /// A damage of row 0 where contacts run, of a ball on ball 0: its surface and angle \[rad\]. Sizes of the damage are given by their
+    /// names.
     ///
     /// ```
-    /// use ballrace::scene::{Damage, Defect, Surface};
-    /// let spall = Damage::Patch { length: 2e-3, width: 1e-3.into(), edge_radius: 0.3e-3, floor: None };
+    /// use ballrace::scene::{Defect, Patch, Pit, Surface};
+    /// let spall = Patch::of_width(1e-3).length(2e-3).edge_radius(0.3e-3);
     /// let spall = Defect::of(spall, Surface::InnerRace, 0.0);
-    /// assert_eq!(spall, Defect::new(Surface::InnerRace, 0.0, 2e-3, 1e-3, 0.3e-3));
+    /// let pit = Defect::of(Pit::of_width(0.2e-3), Surface::Ball, 0.0).on_ball(4);
+    /// assert_eq!((spall.ball, pit.ball), (None, Some(4)));
     /// ```
-    pub fn of(damage: Damage, on: Surface, angle: f64) -> Self {
+    pub fn of(damage: impl Into<Damage>, on: Surface, angle: f64) -> Self {
         Self {
             on,
             row: 0,
             ball: (on == Surface::Ball).then_some(0),
             angle,
             axial_offset: AxialOffset::Contact,
-            damage,
+            damage: damage.into(),
         }
     }
 
     /// A patch of row 0 where contacts run, without floor: its surface, angle \[rad\], axial length \[m\], width \[m\] and
     /// edge radius \[m\]. One of a ball needs [`Self::on_ball`].
-    ///
-    /// ```
-    /// use ballrace::scene::{Defect, Surface};
-    /// let spall = Defect::new(Surface::InnerRace, 0.0, 2e-3, 1e-3, 0.3e-3);
-    /// let chip = Defect::new(Surface::Ball, 0.0, 2e-3, 1e-3, 0.3e-3).on_ball(4).at_offset(0.0);
-    /// assert_eq!((spall.ball, chip.ball), (None, Some(4)));
-    /// ```
+    #[deprecated(
+        since = "0.4.0",
+        note = "is `Defect::of(Patch::of_width(…).length(…).edge_radius(…), on, angle)`, whose sizes have names; gone in 0.5"
+    )]
     pub fn new(
         on: Surface,
         angle: f64,
@@ -62,68 +60,35 @@ impl Defect {
         width: impl Into<Width>,
         edge_radius: f64,
     ) -> Self {
-        let damage = Damage::Patch {
-            length,
-            width: width.into(),
-            edge_radius,
-            floor: None,
-        };
+        let patch = Patch::of_width(width)
+            .length(length)
+            .edge_radius(edge_radius);
         Self {
             ball: None,
-            ..Self::of(damage, on, angle)
+            ..Self::of(patch, on, angle)
         }
     }
 
     /// A cap of ball 0 of row 0 where contacts run, without floor: its angle \[rad\], width \[m\] and edge radius \[m\].
-    ///
-    /// ```
-    /// use ballrace::scene::Defect;
-    /// let cap = Defect::cap(0.0, 1e-3, 0.3e-3).on_ball(4).at_offset(2e-3);
-    /// assert_eq!((cap.ball, cap.damage.width()), (Some(4), 1e-3));
-    /// ```
+    #[deprecated(
+        since = "0.4.0",
+        note = "is `Defect::of(Cap::of_width(…).edge_radius(…), Surface::Ball, angle)`, whose sizes have names; gone in 0.5"
+    )]
     pub fn cap(angle: f64, width: f64, edge_radius: f64) -> Self {
-        let damage = Damage::Cap {
-            width,
-            edge_radius,
-            floor: None,
-        };
-        Self::of(damage, Surface::Ball, angle)
+        let cap = Cap::of_width(width).edge_radius(edge_radius);
+        Self::of(cap, Surface::Ball, angle)
     }
 
     /// A round pit of row 0 where contacts run: its surface, angle \[rad\] and diameter \[m\]. One of a ball needs [`Self::on_ball`].
-    ///
-    /// ```
-    /// use ballrace::scene::{Damage, Defect, Surface};
-    /// let pit = Defect::pit(Surface::OuterRace, -1.57, 0.178e-3);
-    /// assert_eq!(pit.damage, Damage::Pit { width: 0.178e-3, length: None });
-    /// ```
+    #[deprecated(
+        since = "0.4.0",
+        note = "is `Defect::of(Pit::of_width(…), on, angle)`; gone in 0.5"
+    )]
     pub fn pit(on: Surface, angle: f64, diameter: f64) -> Self {
-        let damage = Damage::Pit {
-            width: diameter,
-            length: None,
-        };
         Self {
             ball: None,
-            ..Self::of(damage, on, angle)
+            ..Self::of(Pit::of_width(diameter), on, angle)
         }
-    }
-
-    /// A round dent of row 0 where contacts run: its surface, angle \[rad\], diameter \[m\], depth \[m\] and height of its rim \[m\].
-    /// One of a ball is on ball 0.
-    ///
-    /// ```
-    /// use ballrace::scene::{Defect, Surface};
-    /// let dent = Defect::dent(Surface::InnerRace, 0.0, 0.2e-3, 8e-6, 0.3e-6);
-    /// assert_eq!((dent.ball, dent.damage.width()), (None, 0.2e-3));
-    /// ```
-    pub fn dent(on: Surface, angle: f64, diameter: f64, depth: f64, rim_height: f64) -> Self {
-        let damage = Damage::Dent {
-            width: diameter,
-            length: None,
-            depth,
-            rim_height,
-        };
-        Self::of(damage, on, angle)
     }
 
     /// The same in another row.

@@ -30,7 +30,12 @@ pub(crate) fn interpret<T: DeserializeOwned>(document: &Value, part: &str) -> Re
             ("scene" | "run", place) => place,
             (part, place) => format!("{part}.{place}"),
         };
-        Error::scene(place, value, expected::allowed(&misread.message))
+        let allowed = expected::allowed(&misread.message);
+        if part == "run" {
+            Error::argument(place, value, allowed)
+        } else {
+            Error::scene(place, value, allowed)
+        }
     })
 }
 

@@ -187,6 +187,17 @@ impl Scene {
         }
     }
 
+    /// Paths of the given motions of rings.
+    fn given_motions(&mut self) -> Vec<String> {
+        let of = |ring| {
+            ["x", "y", "z", "tilt_x", "tilt_y"]
+                .map(|direction| format!("{ring}.support.{direction}.given"))
+        };
+        let all = ["outer_ring", "inner_ring"].into_iter().flat_map(of);
+        all.filter(|path| self.given_motion(path).is_some())
+            .collect()
+    }
+
     /// Paths of the sizes of loads and moments, and of the drive's torque.
     fn sizes(&self) -> Vec<String> {
         let loads = self.loads.keys().map(|name| format!("loads.{name}.force"));
@@ -220,17 +231,25 @@ impl Scene {
                 let allowed = "a constant size, not a ramp, sine, table or spline";
                 Err(Error::scene(path, "changing in time", allowed))
             }
-            None => {
-                let known: Vec<&str> = known.iter().map(String::as_str).collect();
-                let allowed = match (nearest(path, &known), known.is_empty()) {
-                    (Some(like), _) => format!("perhaps {like}; there are: {}", known.join(", ")),
-                    (None, false) => format!("one of {}", known.join(", ")),
-                    (None, true) => {
-                        "a load, moment or torque of the scene, which has none".to_owned()
-                    }
-                };
-                Err(Error::scene(path, "not there", allowed))
-            }
+            None => Err(not_there(path, &known, "a load, moment or torque")),
         }
     }
+
+    /// The given motion of a ring, by its path.
+    pub(crate) fn motion_to_set(&mut self, path: &str) -> Result<&mut TimeFunction> {
+        let known = self.given_motions();
+        let motion = self.given_motion(path);
+        motion.ok_or_else(|| not_there(path, &known, "a given motion of a ring"))
+    }
+}
+
+/// The refusal of a path that is none of those that there are.
+fn not_there(path: &str, known: &[String], kind: &str) -> Error {
+    let known: Vec<&str> = known.iter().map(String::as_str).collect();
+    let allowed = match (nearest(path, &known), known.is_empty()) {
+        (Some(like), _) => format!("perhaps {like}; there are: {}", known.join(", ")),
+        (None, false) => format!("one of {}", known.join(", ")),
+        (None, true) => format!("{kind} of the scene, which has none"),
+    };
+    Error::scene(path, "not there", allowed)
 }

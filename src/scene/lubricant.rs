@@ -11,7 +11,7 @@ const CELSIUS: f64 = 273.15;
 /// Density of a mineral oil at 15 °C \[kg/m³\].
 const DENSITY_15: f64 = 880.0;
 
-/// Oil of the contacts of balls and races (`docs/model.md`, *Film*): by name, or by its data sheet.
+/// Oil of the contacts of balls and races ([*Film*](crate::equations#film)): by name, or by its data sheet.
 ///
 /// Its traction replaces the scene's friction law in these contacts, unless [`Self::traction`] is false.
 /// A document may give `temperature_c` \[°C\] in place of `temperature`.

@@ -15,7 +15,7 @@ pub struct Materials {
     pub balls: Material,
 }
 
-/// A linear elastic, isotropic material; the default is bearing steel (`docs/model.md`, *Normal force*).
+/// A linear elastic, isotropic material; the default is bearing steel ([*Normal force*](crate::equations#normal-force)).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 #[non_exhaustive]

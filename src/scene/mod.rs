@@ -6,7 +6,10 @@
 //!
 //! ```
 //! use ballrace::Scene;
-//! let scene = ballrace::scene::presets::deep_groove_6205(500.0, 0.0, 1800.0);
+//! use ballrace::scene::{Defect, Patch, Surface};
+//! let mut scene = ballrace::scene::presets::deep_groove_6205(500.0, 0.0, 1800.0);
+//! let spall = Patch::of_width(1e-3).length(2e-3).edge_radius(0.3e-3); // m
+//! scene.defects.insert("spall".to_owned(), Defect::of(spall, Surface::OuterRace, -1.57));
 //! let text = scene.to_toml();
 //! assert_eq!(Scene::from_toml(&text).unwrap(), scene);
 //! let wide = scene.with(&[("rows[0].clearance", 20e-6.into())]).unwrap();
@@ -63,7 +66,7 @@ pub use approximations::Approximations;
 pub use bearing::{GothicArch, RaceProfile, Row, Waviness};
 pub use cage::{Cage, CageGuidance, CageLinks, CageRing};
 pub use contact::{Contact, Friction, NormalLaw, Slices};
-pub use damage::{Damage, RIM};
+pub use damage::{Cap, Damage, Dent, Patch, Pit, RIM, SteepPatch};
 pub use defect::Defect;
 pub(crate) use document::interpret;
 pub(crate) use doubt::{AtSpeed, FilmJudged};
@@ -76,7 +79,7 @@ pub use lubricant::{Lubricant, OilLayer};
 pub use material::{Material, Materials};
 pub(crate) use oils::CENTISTOKE;
 pub use oils::{Base, NAMED_OILS, NamedOil, OilSheet, OilSource, Sourced, named_oil};
-pub use probe::{Component, ContactQuantity, Probe};
+pub use probe::{Component, ContactQuantity, ContactsProbe, MotionProbe, Probe, SlicesProbe};
 pub use ring::{CoupledSupport, Mount, Ring, RingName, Support};
 pub use ring_force::{RingForce, RingForces, RingMotion};
 /// Value that [`Scene::with`] gives a field: a number, a text, a list or a document of JSON.

@@ -160,7 +160,7 @@ fn a_new_one(path: &str, key: &str) -> Option<String> {
 mod tests {
     use crate::Scene;
     use crate::base::error::Error;
-    use crate::scene::{Damage, Defect, Surface, presets};
+    use crate::scene::{Defect, Patch, Pit, SteepPatch, Surface, presets};
 
     /// Path and value that a document is refused by.
     fn refused(toml: &str) -> (String, String) {
@@ -189,25 +189,22 @@ mod tests {
     #[test]
     fn shape_and_walls_of_a_defect_are_set_by_their_paths() {
         let mut scene = presets::deep_groove_6205(500.0, 0.0, 1797.0);
-        let defect = Defect::new(Surface::OuterRace, -1.57, 1e-3, 2e-3, 0.0);
+        let defect = Defect::of(
+            Patch::of_width(2e-3).length(1e-3).edge_radius(0.0),
+            Surface::OuterRace,
+            -1.57,
+        );
         scene.defects.insert("spall".to_owned(), defect.clone());
         let walled = scene.with(&[("defects.spall.walls", "steep".into())]);
-        let steep = Damage::SteepPatch {
-            length: 1e-3,
-            width: 2e-3,
-            floor: None,
-        };
-        assert_eq!(walled.unwrap().defects["spall"].damage, steep);
+        let steep = SteepPatch::of_width(2e-3).length(1e-3);
+        assert_eq!(walled.unwrap().defects["spall"].damage, steep.into());
         let round = [
             ("defects.spall.shape", "pit".into()),
             ("defects.spall.length", 0.0.into()),
         ];
         let pitted = scene.with(&round).unwrap();
-        let pit = Damage::Pit {
-            width: 2e-3,
-            length: None,
-        };
-        assert_eq!(pitted.defects["spall"].damage, pit);
+        let pit = Pit::of_width(2e-3);
+        assert_eq!(pitted.defects["spall"].damage, pit.into());
     }
 
     #[test]

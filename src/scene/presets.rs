@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::{
-    Cage, Contact, Defect, Drive, Friction, Load, Mount, NormalLaw, Probe, Ring, RingName, Row,
-    Scene, Support, Surface,
+    Cage, Contact, Defect, Drive, Friction, Load, Mount, NormalLaw, Patch, Probe, Ring, RingName,
+    Row, Scene, Support, Surface,
 };
 
 /// The paper's faulted double-row wheel bearing under 7 kN radial and the given axial load \[N\].
@@ -68,7 +68,12 @@ pub fn wheel_bearing(axial_load: f64) -> Scene {
         // and leaves it under −3 kN.
         defects: BTreeMap::from([(
             "spall".to_owned(),
-            Defect::new(Surface::OuterRace, -FRAC_PI_2, 1.5e-3, 1.5e-3, 0.3e-3).at_offset(2.32e-3),
+            Defect::of(
+                Patch::of_width(1.5e-3).length(1.5e-3).edge_radius(0.3e-3),
+                Surface::OuterRace,
+                -FRAC_PI_2,
+            )
+            .at_offset(2.32e-3),
         )]),
         probes: ring_motion(),
         ..Scene::new(rows, Drive::Speed(speed.into()))
@@ -210,12 +215,5 @@ fn loads(radial: f64, axial: f64) -> BTreeMap<String, Load> {
 }
 
 fn ring_motion() -> BTreeMap<String, Probe> {
-    let motion = |body: &str| Probe::Motion {
-        body: body.to_owned(),
-        components: None,
-    };
-    BTreeMap::from([
-        ("outer".to_owned(), motion("outer")),
-        ("inner".to_owned(), motion("inner")),
-    ])
+    BTreeMap::from(["outer", "inner"].map(|ring| (ring.to_owned(), Probe::motion(ring))))
 }

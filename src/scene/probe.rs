@@ -14,46 +14,31 @@ use crate::base::every::every;
 #[non_exhaustive]
 pub enum Probe {
     /// Position, velocity and acceleration of a body; filtered.
-    Motion {
-        /// `outer`, `inner` or a ball such as `row0.ball3`.
-        body: String,
-        /// Components to record; absent: the twelve of every body, for a ring that may tilt also those of its tilts, for a ball
-        /// that spins freely also those about x and y.
-        #[serde(default)]
-        components: Option<Vec<Component>>,
-    },
+    Motion(MotionProbe),
     /// Quantities of the contacts of balls and races, as points: columns `<probe>.ball3.outer.load` and so on.
-    Contacts {
-        /// Row, from 0.
-        #[serde(default)]
-        row: usize,
-        /// Balls of the row; absent: all.
-        #[serde(default)]
-        balls: Option<Vec<usize>>,
-        /// Races; absent: both.
-        #[serde(default)]
-        races: Option<Vec<RingName>>,
-        /// Quantities to record; absent: all.
-        #[serde(default)]
-        quantities: Option<Vec<ContactQuantity>>,
-    },
+    Contacts(ContactsProbe),
     /// The cage of a row, filtered: the force of every link, positive in tension, in columns `<probe>.link0`, … \[N\]; of a ring its angle,
     /// which goes on from turn to turn, its speed and its centre, `<probe>.angle`, `.omega`, `.x`, `.y`, and the force of each pocket's wall
     /// on its ball, positive on one that leads, `.pocket0.force`, …
+    #[non_exhaustive]
     Cage {
         /// Row, from 0.
         #[serde(default)]
         row: usize,
     },
     /// Energies \[J\] and dissipated powers \[W\], as points.
+    #[non_exhaustive]
     Energy {},
     /// Friction torque about z that the balls put on each ring, filtered: `<probe>.outer`, `<probe>.inner` \[N m\].
     /// Costs an evaluation of the model at every point that the filter reads.
+    #[non_exhaustive]
     Torque {},
     /// Moments about x and y that the balls put on the rings, each about its own centre, as points: `<probe>.outer.x`,
     /// `<probe>.outer.y`, `<probe>.inner.x`, `<probe>.inner.y` \[N m\]. The support that keeps a ring from tilting carries them.
+    #[non_exhaustive]
     Moments {},
     /// The forces on a body by origin, as points: `<probe>.contact.x`, `<probe>.friction.y`, … \[N\], about z \[N m\].
+    #[non_exhaustive]
     Forces {
         /// `outer`, `inner` or a ball such as `row0.ball3`.
         body: String,
@@ -61,25 +46,219 @@ pub enum Probe {
     /// Films and losses of a row's oil, as points: `<probe>.outer.film`, `.inner.film` \[m\], `.outer.lambda`, `.inner.lambda`,
     /// `.friction_torque` \[N m\], `.slip_power`, `.rolling_power`, `.damping_power`, `.drag_power` \[W\]. The torque is that of the
     /// row's balls on the inner ring, positive against its motion whichever way the shaft turns.
+    #[non_exhaustive]
     Lubrication {
         /// Row, from 0; it has a lubricant.
         #[serde(default)]
         row: usize,
     },
     /// Forces of the single slices of chosen contacts at chosen times; a table in addition to the signals.
-    Slices {
-        /// Row, from 0.
-        #[serde(default)]
-        row: usize,
-        /// Balls of the row; absent: all.
-        #[serde(default)]
-        balls: Option<Vec<usize>>,
-        /// Races; absent: both.
-        #[serde(default)]
-        races: Option<Vec<RingName>>,
-        /// Times within the run \[s\].
-        times: Vec<f64>,
-    },
+    Slices(SlicesProbe),
+}
+
+/// Motion of a body to be recorded.
+///
+/// ```
+/// use ballrace::scene::{Component, MotionProbe, presets};
+/// let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
+/// let probe = MotionProbe::of("inner").components([Component::X, Component::Y]);
+/// scene.probes.insert("shaft".to_owned(), probe.into());
+/// # assert!(scene.validate().is_ok());
+/// ```
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[non_exhaustive]
+pub struct MotionProbe {
+    /// `outer`, `inner` or a ball such as `row0.ball3`.
+    pub body: String,
+    /// Components to record; absent: the twelve of every body, for a ring that may tilt also those of its tilts, for a ball
+    /// that spins freely also those about x and y.
+    #[serde(default)]
+    pub components: Option<Vec<Component>>,
+}
+
+impl MotionProbe {
+    /// All components of a body: `outer`, `inner` or a ball such as `row0.ball3`.
+    pub fn of(body: impl Into<String>) -> Self {
+        Self {
+            body: body.into(),
+            components: None,
+        }
+    }
+
+    /// These components alone.
+    #[must_use]
+    pub fn components(self, components: impl Into<Vec<Component>>) -> Self {
+        Self {
+            components: Some(components.into()),
+            ..self
+        }
+    }
+}
+
+/// Contacts of balls and races whose quantities are to be recorded.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[non_exhaustive]
+pub struct ContactsProbe {
+    /// Row, from 0.
+    #[serde(default)]
+    pub row: usize,
+    /// Balls of the row; absent: all.
+    #[serde(default)]
+    pub balls: Option<Vec<usize>>,
+    /// Races; absent: both.
+    #[serde(default)]
+    pub races: Option<Vec<RingName>>,
+    /// Quantities to record; absent: all.
+    #[serde(default)]
+    pub quantities: Option<Vec<ContactQuantity>>,
+}
+
+impl ContactsProbe {
+    /// All quantities of all contacts of a row, from 0.
+    pub fn of_row(row: usize) -> Self {
+        Self {
+            row,
+            ..Self::default()
+        }
+    }
+
+    /// These balls of the row alone.
+    #[must_use]
+    pub fn balls(self, balls: impl Into<Vec<usize>>) -> Self {
+        Self {
+            balls: Some(balls.into()),
+            ..self
+        }
+    }
+
+    /// These races alone.
+    #[must_use]
+    pub fn races(self, races: impl Into<Vec<RingName>>) -> Self {
+        Self {
+            races: Some(races.into()),
+            ..self
+        }
+    }
+
+    /// These quantities alone.
+    #[must_use]
+    pub fn quantities(self, quantities: impl Into<Vec<ContactQuantity>>) -> Self {
+        Self {
+            quantities: Some(quantities.into()),
+            ..self
+        }
+    }
+}
+
+/// Contacts whose slices are to be recorded, and when.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[non_exhaustive]
+pub struct SlicesProbe {
+    /// Row, from 0.
+    #[serde(default)]
+    pub row: usize,
+    /// Balls of the row; absent: all.
+    #[serde(default)]
+    pub balls: Option<Vec<usize>>,
+    /// Races; absent: both.
+    #[serde(default)]
+    pub races: Option<Vec<RingName>>,
+    /// Times within the run \[s\].
+    pub times: Vec<f64>,
+}
+
+impl SlicesProbe {
+    /// All contacts of row 0 at times within the run \[s\].
+    pub fn at(times: impl Into<Vec<f64>>) -> Self {
+        Self {
+            row: 0,
+            balls: None,
+            races: None,
+            times: times.into(),
+        }
+    }
+
+    /// The same of another row, from 0.
+    #[must_use]
+    pub fn in_row(self, row: usize) -> Self {
+        Self { row, ..self }
+    }
+
+    /// These balls of the row alone.
+    #[must_use]
+    pub fn balls(self, balls: impl Into<Vec<usize>>) -> Self {
+        Self {
+            balls: Some(balls.into()),
+            ..self
+        }
+    }
+
+    /// These races alone.
+    #[must_use]
+    pub fn races(self, races: impl Into<Vec<RingName>>) -> Self {
+        Self {
+            races: Some(races.into()),
+            ..self
+        }
+    }
+}
+
+impl Probe {
+    /// All components of the motion of a body.
+    pub fn motion(body: impl Into<String>) -> Self {
+        MotionProbe::of(body).into()
+    }
+
+    /// The cage of a row, from 0.
+    pub fn cage(row: usize) -> Self {
+        Self::Cage { row }
+    }
+
+    /// Energies and dissipated powers.
+    pub fn energy() -> Self {
+        Self::Energy {}
+    }
+
+    /// Friction torques of the balls on the rings.
+    pub fn torque() -> Self {
+        Self::Torque {}
+    }
+
+    /// Moments of the balls on the rings.
+    pub fn moments() -> Self {
+        Self::Moments {}
+    }
+
+    /// Forces on a body by origin.
+    pub fn forces(body: impl Into<String>) -> Self {
+        Self::Forces { body: body.into() }
+    }
+
+    /// Films and losses of the oil of a row, from 0.
+    pub fn lubrication(row: usize) -> Self {
+        Self::Lubrication { row }
+    }
+}
+
+impl From<MotionProbe> for Probe {
+    fn from(of: MotionProbe) -> Self {
+        Self::Motion(of)
+    }
+}
+
+impl From<ContactsProbe> for Probe {
+    fn from(of: ContactsProbe) -> Self {
+        Self::Contacts(of)
+    }
+}
+
+impl From<SlicesProbe> for Probe {
+    fn from(of: SlicesProbe) -> Self {
+        Self::Slices(of)
+    }
 }
 
 /// Component of a motion.

@@ -3,7 +3,9 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use super::{Component, ContactQuantity, Drive, Mount, Probe, Scene, Support};
+use super::{
+    Component, ContactQuantity, ContactsProbe, Drive, MotionProbe, Mount, Probe, Scene, Support,
+};
 
 /// The rings in the order of the bodies: name, as in columns and states.
 const RINGS: [&str; 2] = ["outer", "inner"];
@@ -75,24 +77,13 @@ impl Scene {
     fn motion(&self, ring: usize) -> Probe {
         let moves = self.moves(ring);
         let can_move = |component: &Component| moves[component.direction()];
-        Probe::Motion {
-            body: RINGS[ring].to_owned(),
-            components: Some(
-                self.components_of(RINGS[ring])
-                    .into_iter()
-                    .filter(can_move)
-                    .collect(),
-            ),
-        }
+        let components = self.components_of(RINGS[ring]).into_iter();
+        let components: Vec<Component> = components.filter(can_move).collect();
+        MotionProbe::of(RINGS[ring]).components(components).into()
     }
 }
 
 fn contact_loads(row: usize) -> (String, Probe) {
-    let probe = Probe::Contacts {
-        row,
-        balls: None,
-        races: None,
-        quantities: Some(vec![ContactQuantity::Load]),
-    };
-    (format!("row{row}"), probe)
+    let loads = ContactsProbe::of_row(row).quantities([ContactQuantity::Load]);
+    (format!("row{row}"), loads.into())
 }

@@ -1,6 +1,6 @@
 //! The samples of a record that are in memory: all of a run, or those that no block has handed over yet.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use std::collections::TryReserveError;
 use std::mem;
@@ -19,7 +19,7 @@ const LEAST: usize = 256;
 const SIZE: usize = 16 << 20;
 
 /// Consecutive samples of a record, which are what they are in a record that is kept whole.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Block {
     /// Times k / fs, going on where the block before has ended \[s\].
@@ -146,7 +146,7 @@ impl<'a> Held<'a> {
                     .iter_mut()
                     .map(|of| Column {
                         name: of.name.clone(),
-                        unit: of.unit,
+                        unit: of.unit.clone(),
                         values: taken(&mut of.values, rows, most),
                     })
                     .collect(),
@@ -171,7 +171,7 @@ impl Held<'_> {
                 .iter_mut()
                 .map(|of| Column {
                     name: of.name.clone(),
-                    unit: of.unit,
+                    unit: of.unit.clone(),
                     values: part(&mut of.values),
                 })
                 .collect(),

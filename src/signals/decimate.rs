@@ -149,7 +149,7 @@ mod tests {
     fn decimated(x: impl Fn(f64) -> f64, first: i64, last: i64) -> [Vec<f64>; 2] {
         let column = || Column {
             name: String::new(),
-            unit: "",
+            unit: "".into(),
             values: vec![0.0; COUNT],
         };
         let mut out = vec![column(), column()];

@@ -6,7 +6,7 @@ use super::filter::HALF;
 use crate::dynamics::contribution_names;
 use crate::inspect::{Energy, Lubrication, MOMENTS};
 use crate::model::{DOFS, RINGS};
-use crate::scene::{Cage, ContactQuantity, Probe, Scene, Slices};
+use crate::scene::{Cage, ContactQuantity, Probe, RingName, Scene, Slices};
 
 /// A column besides its values: its name twice, and what finds it \[bytes\]. An estimate, generous for names of some tens
 /// of letters.
@@ -38,26 +38,20 @@ impl Demand {
             slices: 0,
         };
         for (_, probe) in scene.recorded().iter() {
-            let contacts = |row: usize, balls: Option<usize>, races: Option<usize>| {
-                balls.unwrap_or(scene.rows[row].ball_count) * races.unwrap_or(RINGS)
+            let contacts = |row: usize, balls: &Option<Vec<_>>, races: &Option<Vec<_>>| {
+                let all = scene.rows[row].ball_count;
+                balls.as_ref().map_or(all, Vec::<usize>::len)
+                    * races.as_ref().map_or(RINGS, Vec::<RingName>::len)
             };
             demand.columns += match probe {
-                Probe::Motion { body, components } => {
-                    let all = scene.components_of(body).len();
-                    components.as_ref().map_or(all, Vec::len)
+                Probe::Motion(of) => {
+                    let all = scene.components_of(&of.body).len();
+                    of.components.as_ref().map_or(all, Vec::len)
                 }
-                Probe::Contacts {
-                    row,
-                    balls,
-                    races,
-                    quantities,
-                } => {
+                Probe::Contacts(of) => {
                     let all = ContactQuantity::ALL.len();
-                    contacts(
-                        *row,
-                        balls.as_ref().map(Vec::len),
-                        races.as_ref().map(Vec::len),
-                    ) * quantities.as_ref().map_or(all, Vec::len)
+                    let quantities = of.quantities.as_ref().map_or(all, Vec::len);
+                    contacts(of.row, &of.balls, &of.races) * quantities
                 }
                 // Two balls have but one link.
                 Probe::Cage { row } => match (&scene.cage, scene.rows[*row].ball_count) {
@@ -71,19 +65,9 @@ impl Demand {
                 Probe::Moments {} => MOMENTS.len(),
                 Probe::Lubrication { .. } => Lubrication::LABELS.len(),
                 Probe::Forces { .. } => DOFS * contribution_names().len(),
-                Probe::Slices {
-                    row,
-                    balls,
-                    races,
-                    times,
-                } => {
-                    demand.slices += times.len()
-                        * nodes(*row)
-                        * contacts(
-                            *row,
-                            balls.as_ref().map(Vec::len),
-                            races.as_ref().map(Vec::len),
-                        );
+                Probe::Slices(of) => {
+                    let contacts = contacts(of.row, &of.balls, &of.races);
+                    demand.slices += of.times.len() * nodes(of.row) * contacts;
                     0
                 }
             };
@@ -114,7 +98,9 @@ impl Demand {
 mod tests {
     use super::super::probes::Probes;
     use super::*;
-    use crate::scene::{Component, Lubricant, RingName, presets};
+    use crate::scene::{
+        Component, ContactsProbe, Lubricant, MotionProbe, RingName, SlicesProbe, presets,
+    };
     use crate::statics::compile;
 
     /// Truth: the columns that are made.
@@ -122,40 +108,24 @@ mod tests {
     fn all_columns_are_counted() {
         let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
         scene.lubricant = Some(Lubricant::named("vg68", 328.15));
-        let body = || "outer".to_owned();
+        let one = ContactsProbe::of_row(0)
+            .balls([1, 2])
+            .races([RingName::Inner])
+            .quantities([ContactQuantity::Load]);
         let probes = [
-            Probe::Motion {
-                body: body(),
-                components: None,
-            },
-            Probe::Motion {
-                body: "row0.ball3".to_owned(),
-                components: Some(vec![Component::Ay]),
-            },
-            Probe::Contacts {
-                row: 0,
-                balls: None,
-                races: None,
-                quantities: None,
-            },
-            Probe::Contacts {
-                row: 0,
-                balls: Some(vec![1, 2]),
-                races: Some(vec![RingName::Inner]),
-                quantities: Some(vec![ContactQuantity::Load]),
-            },
-            Probe::Cage { row: 0 },
-            Probe::Energy {},
-            Probe::Torque {},
-            Probe::Moments {},
-            Probe::Lubrication { row: 0 },
-            Probe::Forces { body: body() },
-            Probe::Slices {
-                row: 0,
-                balls: None,
-                races: None,
-                times: vec![0.0, 1e-3],
-            },
+            Probe::motion("outer"),
+            MotionProbe::of("row0.ball3")
+                .components([Component::Ay])
+                .into(),
+            ContactsProbe::of_row(0).into(),
+            one.into(),
+            Probe::cage(0),
+            Probe::energy(),
+            Probe::torque(),
+            Probe::moments(),
+            Probe::lubrication(0),
+            Probe::forces("outer"),
+            SlicesProbe::at([0.0, 1e-3]).into(),
         ];
         for (k, probe) in probes.into_iter().enumerate() {
             scene.probes.insert(format!("p{k}"), probe);

@@ -168,7 +168,7 @@ impl Orbits {
         let rows = model.rows.iter().enumerate();
         rows.filter(|(_, row)| {
             row.balls()
-                .any(|j| inspect::contact(model, &self.y, j, Race::Inner).load > 0.0)
+                .any(|j| inspect::raw::contact(model, &self.y, j, Race::Inner).load > 0.0)
         })
         .map(|(at, row)| {
             let balls = || row.balls().map(|j| &self.balls[j]);
@@ -226,7 +226,7 @@ pub struct RowRolling {
 
 /// How each row of the healthy bearing rolls that is loaded: a ball that rests in a defect at one place would count as if all did all
 /// the time. As a run starts: where friction, drag and gyroscopic moments balance; or, without friction or under
-/// a race's control, by those of `docs/model.md`, *Rings that tilt, balls that spin freely*. Absent of a row whose inner
+/// a race's control, by those of [*Rings that tilt*](crate::equations#rings-that-tilt-balls-that-spin-freely). Absent of a row whose inner
 /// contacts carry nothing, so that nothing drives it.
 ///
 /// # Errors
@@ -249,7 +249,7 @@ fn rolls(model: &Model, row: &RowModel, y: &[f64]) -> Option<RowRolling> {
     let (mut angle, mut spin, mut loads, mut both) = (0.0, 0.0, 0.0, 0.0);
     let (mut around, mut drives) = (0.0, false);
     for j in row.balls() {
-        let [outer, inner] = Race::BOTH.map(|race| inspect::contact(model, y, j, race));
+        let [outer, inner] = Race::BOTH.map(|race| inspect::raw::contact(model, y, j, race));
         for contact in [&outer, &inner].into_iter().filter(|of| of.load > 0.0) {
             angle += contact.load * contact.angle.abs();
             loads += contact.load;

@@ -22,8 +22,11 @@ mod sampling;
 pub(crate) mod touched;
 mod warning;
 
+use std::borrow::Cow;
+
 use serde::{Deserialize, Serialize};
 
+use crate::base::nulls;
 use crate::inspect::RaceFilm;
 use crate::reduction::Omission;
 use crate::scene::{Doubt, RingName, Scene};
@@ -43,7 +46,7 @@ pub(crate) use sampling::Sampling;
 pub use warning::Warning;
 
 /// Results of a run.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Signals {
     /// Sampling rate \[Hz\].
@@ -162,11 +165,11 @@ impl Statistics {
 }
 
 /// Origin of signals: version, scene, options, machine.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Provenance {
     /// Version of this crate.
-    pub version: &'static str,
+    pub version: Cow<'static, str>,
     /// Version of the scene document.
     pub schema: u32,
     /// Method.
@@ -178,7 +181,7 @@ pub struct Provenance {
     /// Step cap \[s\]; absent: none.
     pub max_step: Option<f64>,
     /// Start of the run.
-    pub start: &'static str,
+    pub start: Cow<'static, str>,
     /// Simulated time \[s\].
     pub duration: f64,
     /// Threads used.
@@ -188,11 +191,11 @@ pub struct Provenance {
     /// Parts that were left out since they do not change the motion.
     pub left_out: Vec<Omission>,
     /// The instruction set.
-    pub simd: &'static str,
+    pub simd: Cow<'static, str>,
     /// Fault of the instruction set that would have been used; absent where there was none.
     pub distrust: Option<Distrust>,
     /// Processor architecture.
-    pub architecture: &'static str,
+    pub architecture: Cow<'static, str>,
     /// Frequency up to which motion, cage forces and friction torques are not attenuated \[Hz\]: 0.4 fs behind the
     /// low-pass, fs/2 where fs is above the rate of the steps and takes none; absent for point samples.
     pub bandwidth: Option<f64>,
@@ -207,6 +210,7 @@ pub struct Provenance {
     /// The films of rows with an oil, at the load and the speed that they are computed for.
     pub films: Vec<RaceFilm>,
     /// Largest step by which the method is stable and accurate in this scene \[s\]; `frequency_cap` keeps below it.
+    #[serde(deserialize_with = "nulls::number")]
     pub step_limit: f64,
     /// Changes at rest by holding the balls' axis along the bearing's; absent where nothing turns or rubs, or without an equilibrium.
     pub axis: Option<AxisHeld>,
@@ -215,19 +219,20 @@ pub struct Provenance {
 }
 
 /// A signal with its name and unit.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Column {
     /// `<probe>.<quantity>`.
     pub name: String,
     /// Unit, such as `m/s^2`.
-    pub unit: &'static str,
+    pub unit: Cow<'static, str>,
     /// A value a sample.
+    #[serde(deserialize_with = "nulls::numbers")]
     pub values: Vec<f64>,
 }
 
 /// The force of one slice at one time.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct SliceRow {
     /// The probe that asked.

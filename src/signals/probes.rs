@@ -82,17 +82,13 @@ impl Probes {
         let body_of = |body: &str| BodyId::new(model.scene.body_index(body).unwrap_or(0));
         let before = self.columns.len();
         let reader = match probe {
-            Probe::Motion { body, components } => {
-                self.motion(model, name, body_of(body), components.as_deref())
+            Probe::Motion(of) => {
+                let components = of.components.as_deref();
+                self.motion(model, name, body_of(&of.body), components)
             }
-            Probe::Contacts {
-                row,
-                balls,
-                races,
-                quantities,
-            } => {
-                let contacts = contacts(model, *row, balls.as_deref(), races.as_deref());
-                self.contacts(model, name, contacts, quantities.as_deref())
+            Probe::Contacts(of) => {
+                let contacts = contacts(model, of.row, of.balls.as_deref(), of.races.as_deref());
+                self.contacts(model, name, contacts, of.quantities.as_deref())
             }
             Probe::Cage { row } => {
                 if model.scene.cage_ring().is_some() {
@@ -139,14 +135,9 @@ impl Probes {
                 ProbeReader::Lubrication { row: *row }
             }
             Probe::Forces { body } => self.forces(name, body_of(body)),
-            Probe::Slices {
-                row,
-                balls,
-                races,
-                times,
-            } => {
-                let contacts = contacts(model, *row, balls.as_deref(), races.as_deref());
-                self.listings.extend(times.iter().map(|&time| Listing {
+            Probe::Slices(of) => {
+                let contacts = contacts(model, of.row, of.balls.as_deref(), of.races.as_deref());
+                self.listings.extend(of.times.iter().map(|&time| Listing {
                     probe: name.to_owned(),
                     time,
                     contacts: contacts.clone(),
@@ -215,7 +206,7 @@ impl Probes {
     fn column(&mut self, name: String, unit: &'static str, kind: Option<SampleKind>) {
         self.columns.push(Column {
             name,
-            unit,
+            unit: unit.into(),
             values: Vec::new(),
         });
         self.kinds.push(kind);
@@ -260,7 +251,7 @@ impl ProbeReader {
                 quantities,
             } => {
                 for (j, race) in contacts {
-                    let contact = inspect::contact(model, y, *j, *race);
+                    let contact = inspect::raw::contact(model, y, *j, *race);
                     values.extend(quantities.iter().map(|quantity| match quantity {
                         ContactQuantity::Load => contact.load,
                         ContactQuantity::Angle => contact.angle,
@@ -276,17 +267,17 @@ impl ProbeReader {
                     let centre = layout.motion(y, carrier(model, *row)).centre;
                     values.extend([turning.theta, turning.omega, centre.x, centre.y]);
                 }
-                values.extend(inspect::cage_forces(model, y, *row));
+                values.extend(inspect::raw::cage_forces(model, y, *row));
             }
             Self::Energy => values.extend(
-                inspect::energy(model, y)
+                inspect::raw::energy(model, y)
                     .entries()
                     .map(|(_, _, value)| value),
             ),
             Self::Torque => values.extend(dynamics.ring_torques()),
-            Self::Moments => values.extend(inspect::moments(model, t, y).as_flattened()),
+            Self::Moments => values.extend(inspect::raw::moments(model, t, y).as_flattened()),
             Self::Lubrication { row } => {
-                values.extend(inspect::lubrication(model, y, *row).values());
+                values.extend(inspect::raw::lubrication(model, y, *row).values());
             }
             Self::Forces { body } => {
                 for (_, forces) in contributions_with_films(model, t, y) {

@@ -302,7 +302,7 @@ impl<'s> Recorder<'s> {
             dynamics.expand(listing.time, &self.own.0, &mut self.y);
             for (j, race) in listing.contacts {
                 let ball = &model.balls[j];
-                for slice in inspect::slice_forces(model, &self.y, j, race) {
+                for slice in inspect::raw::slice_forces(model, &self.y, j, race) {
                     self.slices.push(SliceRow {
                         probe: listing.probe.clone(),
                         time: listing.time,

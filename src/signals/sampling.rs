@@ -40,7 +40,7 @@ impl Sampling {
     /// The sampling for contacts of an angular frequency of at most `frequency` \[rad/s\].
     ///
     /// # Errors
-    /// [`Error::Scene`] where a sample would take too many points.
+    /// [`Error::Argument`] where a sample would take too many points.
     pub fn new(bandwidth: Bandwidth, fs: f64, frequency: f64) -> Result<Self> {
         // A point of the grid a radian of the highest contact frequency, as the steps have.
         let wanted = if bandwidth == Bandwidth::Raw || fs >= FINE * frequency {
@@ -50,10 +50,10 @@ impl Sampling {
         };
         if wanted > MOST {
             let allowed = format!(
-                "at least {:.3} Hz where signals are filtered, or bandwidth = None",
+                "at least {:.3} Hz where signals are filtered, or point samples (no bandwidth)",
                 frequency / MOST
             );
-            return Err(Error::scene("fs", fs, allowed));
+            return Err(Error::argument("fs", fs, allowed));
         }
         // From 1 to MOST.
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]

@@ -10,7 +10,9 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
+
+use crate::base::nulls;
 
 use crate::contact::{ContactDirection, DefectContact, Pair, SurfaceDefect, ZoneSlices};
 use crate::dynamics::Dynamics;
@@ -19,7 +21,7 @@ use crate::model::{Model, Placed, Race, ball_defect, race_defect};
 use crate::scene::{Defect, Doubt, Scene, Surface};
 
 /// Record of a defect: its place, and what met it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Touched {
     /// Name of the defect.
@@ -27,6 +29,7 @@ pub struct Touched {
     /// Surface on which the defect lies.
     pub on: Surface,
     /// Axial place of its middle, from the row's plane (races) or the ball's centre \[m\].
+    #[serde(deserialize_with = "nulls::number")]
     pub axial_offset: f64,
     /// Origin of that number.
     pub placed: Placed,
@@ -76,7 +79,7 @@ impl Touched {
         self
     }
 
-    /// Doubt about a defect that is narrower than the contacts that meet it and is not a pit (`docs/model.md`, *Defects*).
+    /// Doubt about a defect that is narrower than the contacts that meet it and is not a pit ([*Defects*](crate::equations#defects)).
     pub(crate) fn doubt(&self, scene: &Scene) -> Option<Doubt> {
         let defect = &scene.defects[&self.name];
         let (width, contact) = (defect.damage.width(), self.contact_width?);

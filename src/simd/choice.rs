@@ -1,9 +1,10 @@
 //! Choice of the instruction set of a process: the widest that exists, or the requested one, if it computes correctly.
 
+use std::borrow::Cow;
 use std::ffi::OsStr;
 use std::sync::OnceLock;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::isa::InstructionSet;
 use super::proof::wrong_primitive;
@@ -22,15 +23,15 @@ pub struct UnknownInstructionSet {
 }
 
 /// An instruction set that this processor says it has and that does not compute what it should; a narrower one is used instead.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Distrust {
     /// Name of the instruction set.
-    pub instructions: &'static str,
+    pub instructions: Cow<'static, str>,
     /// The primitive that erred first; `contacts` where the primitives did not and contacts did.
-    pub primitive: &'static str,
+    pub primitive: Cow<'static, str>,
     /// Name of the instruction set that is used.
-    pub used: &'static str,
+    pub used: Cow<'static, str>,
 }
 
 /// The first instruction set that errs nowhere, or the last, and what was wrong with the first.
@@ -45,9 +46,9 @@ fn trusted(
         .find(|instructions| wrong(*instructions).is_none())
         .unwrap_or(last);
     let distrust = error.map(|primitive| Distrust {
-        instructions: first.name(),
-        primitive,
-        used: used.name(),
+        instructions: first.name().into(),
+        primitive: primitive.into(),
+        used: used.name().into(),
     });
     (used, distrust)
 }
@@ -125,9 +126,9 @@ mod tests {
         });
         assert_eq!(used, *all.get(1).unwrap_or(&InstructionSet::BASELINE));
         let wanted = Distrust {
-            instructions: widest.name(),
-            primitive: "any",
-            used: used.name(),
+            instructions: widest.name().into(),
+            primitive: "any".into(),
+            used: used.name().into(),
         };
         assert_eq!(distrust, Some(wanted));
         assert_eq!(trusted(all, |_| Some("any")).0, InstructionSet::BASELINE);

@@ -75,7 +75,10 @@ impl DefectPasses {
     /// The most loaded of these contacts; none without load.
     pub fn heaviest(self, defect: &Defect) -> Option<HeaviestContact> {
         let load = |&(j, race): &(usize, Race)| {
-            (inspect::contact(&self.model, &self.y, j, race).load, race)
+            (
+                inspect::raw::contact(&self.model, &self.y, j, race).load,
+                race,
+            )
         };
         let loads = self.contacts.iter().map(load);
         let heaviest = loads.max_by(|a, b| a.0.total_cmp(&b.0));
@@ -91,7 +94,7 @@ impl DefectPasses {
     /// Place at which the most loaded of these contacts runs, from the row's plane or the ball's centre \[m\]; none without load.
     fn place(&self, defect: &Defect) -> Option<f64> {
         let places = self.contacts.iter().map(|&(j, race)| {
-            let contact = inspect::contact(&self.model, &self.y, j, race);
+            let contact = inspect::raw::contact(&self.model, &self.y, j, race);
             let z = |body: BodyId| self.y[self.model.layout().at(body, Dof::Z)];
             let from = match defect.on {
                 Surface::Ball => z(BodyId::ball(j)) - z(race.ring()),
@@ -131,14 +134,14 @@ fn loads_of(model: &Model, y: &[f64]) -> RaceLoads {
 fn weighted_load(model: &Model, y: &[f64], row: usize, race: Race) -> f64 {
     let (mut sum, mut squares) = (0.0, 0.0);
     for ball in model.rows[row].balls() {
-        let load = inspect::contact(model, y, ball, race).load;
+        let load = inspect::raw::contact(model, y, ball, race).load;
         sum += load;
         squares += load * load;
     }
     if sum > 0.0 { squares / sum } else { 0.0 }
 }
 
-/// F. P. Wardle's rules for balls (model section 14.6), which no scene has one by one.
+/// F. P. Wardle's rules for balls, which no scene has one by one.
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::rolling::RaceControl;
 use super::steady::{keep, orbit};
@@ -30,7 +30,7 @@ const NO_ANGLE: f64 = 1e-3;
 const SLIDING: f64 = 1.0;
 
 /// How much holding the balls' axis along the bearing's changes at rest, against balls that spin about any axis.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct AxisHeld {
     /// How much faster balls go round, against the outer ring, as a share: of the row where it is most.
@@ -129,7 +129,7 @@ impl OneSpin {
         let rows = || model.rows.iter();
         let most = rows().map(|row| largest(&found, row)).fold(0.0, f64::max);
         let rows = rows().map(|row| {
-            let drives = |j: &usize| inspect::contact(&model, &y, *j, Race::Inner).load > 0.0;
+            let drives = |j: &usize| inspect::raw::contact(&model, &y, *j, Race::Inner).load > 0.0;
             let is_idle = largest(&found, row) < LOADED * most;
             let ball = row
                 .balls()

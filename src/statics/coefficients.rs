@@ -3,7 +3,7 @@
 use std::array::from_fn;
 
 use nalgebra::{Matrix2x5, Matrix5};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::distribution::{healthy_turns, turned};
 use super::small_motion::SmallMotion;
@@ -20,7 +20,7 @@ const FURTHER: f64 = 1e-3;
 ///
 /// Entry (i, j) is the force \[N\] or moment about the ring's centre of mass \[N m\] that has to be added along i for small, slow motion along
 /// j: x, y, z \[m\] and tilts about x and y \[rad\], or their rates. Slow is below some kHz: the inertia of balls is left out.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct DynamicCoefficients {
     /// K \[N/m, N/rad, N m/m, N m/rad\].

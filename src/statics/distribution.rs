@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{BallEquilibrium, Equilibrium, RaceControl, doubts, place, solved};
 use crate::base::error::{Error, Result};
@@ -14,7 +14,7 @@ const TURNING: f64 = 3.0;
 const STANDING: f64 = 10.0 / 3.0;
 
 /// Static loads while the cage turns past rings that stand.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct LoadDistribution {
     /// How far the cage has turned from the scene's start angles at each position \[rad\].
@@ -31,7 +31,7 @@ pub struct LoadDistribution {
 /// stands, and its most loaded places decide, (mean of Q^{10/3})^{3/10}. Where [`Scene::outer_speed`] turns the outer ring, the
 /// first is its mean too, and the second that of an inner ring that stands. ISO/TS 16281, section on ball bearings, and
 /// T. A. Harris, *Rolling Bearing Analysis*, ch. 18, after G. Lundberg, A. Palmgren 1947.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct EquivalentLoads {
     /// Number of the outer race.
@@ -55,7 +55,7 @@ pub struct EquivalentLoads {
 /// ```
 ///
 /// # Errors
-/// As [`super::equilibrium()`]; [`Error::Scene`] for no positions, [`Error::Memory`] for more than fit.
+/// As [`super::equilibrium()`]; [`Error::Argument`] for no positions, [`Error::Memory`] for more than fit.
 pub fn load_distribution(scene: &Scene, positions: usize) -> Result<LoadDistribution> {
     let (scene, turn) = healthy_turns(scene, positions)?;
     let equilibria = turn
@@ -97,7 +97,11 @@ fn exponents(scene: &Scene) -> [f64; 2] {
 /// else over a turn.
 pub(super) fn healthy_turns(scene: &Scene, positions: usize) -> Result<(Scene, Vec<f64>)> {
     if positions == 0 {
-        return Err(Error::scene("positions", "0", "at least 1 per ball pitch"));
+        return Err(Error::argument(
+            "positions",
+            "0",
+            "at least 1 per ball pitch",
+        ));
     }
     scene.validate()?;
     let mut scene = scene.clone();

@@ -98,7 +98,7 @@ impl Loose {
         if orbit(model, row) < 0.0 {
             balls.reverse();
         }
-        let is_loose = |j: &usize| inspect::contact(model, y, *j, Race::Inner).load == 0.0;
+        let is_loose = |j: &usize| inspect::raw::contact(model, y, *j, Race::Inner).load == 0.0;
         let n = row.count;
         let loose: Vec<bool> = balls.iter().map(is_loose).collect();
         let mut fronts = (0..n).filter(|k| loose[*k] && !loose[(k + 1) % n]);

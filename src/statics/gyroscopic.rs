@@ -89,7 +89,7 @@ impl Problem<'_> {
         let wanted = inertia * motion.orbit_speed() * outward / ball.side.radius;
         let mut left = wanted;
         Race::BOTH.map(|race| {
-            let contact = inspect::contact(model, y, j, race);
+            let contact = inspect::raw::contact(model, y, j, race);
             let row = &model.rows[ball.row];
             let law = row.pairs[race].law.traction;
             let limit = law.map_or(0.0, |law| law.at(SLIDING) * SLIDING) * contact.load;

@@ -40,7 +40,7 @@ mod unknowns;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::base::error::Result;
 use crate::base::interrupt;
@@ -97,7 +97,7 @@ const CARRIED: f64 = 1e-9;
 const ENGAGED: f64 = 1e-7;
 
 /// Static state of a bearing.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Equilibrium {
     /// Displacement of the outer ring x, y, z \[m\].
@@ -138,7 +138,7 @@ impl Equilibrium {
 }
 
 /// Static state of a ball.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct BallEquilibrium {
     /// Row, from 0.
@@ -158,7 +158,7 @@ pub struct BallEquilibrium {
 }
 
 /// Static state of a contact.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct ContactEquilibrium {
     /// Normal force \[N\].

@@ -1,4 +1,6 @@
-//! The speeds of balls that roll where they stand: nominally, or at the contact angles of a state (model sections 8 and 13.5).
+//! The speeds of balls that roll where they stand: nominally, or at the contact angles of a state ([*How a run
+//! begins*](crate::equations#how-a-run-begins-and-how-it-goes-on) and [*Rings that
+//! tilt*](crate::equations#rings-that-tilt-balls-that-spin-freely)).
 
 use crate::contact::V2;
 use crate::inspect;
@@ -105,7 +107,7 @@ fn roll_at_contacts(model: &Model, control: RaceControl, y: &mut [f64]) {
         let mut rolling = Vec::new();
         let (mut weighted, mut weight) = (0.0, 0.0);
         for j in model.rows[row].balls() {
-            let contacts = Race::BOTH.map(|race| inspect::contact(model, y, j, race));
+            let contacts = Race::BOTH.map(|race| inspect::raw::contact(model, y, j, race));
             let load = contacts[0].load.min(contacts[1].load);
             let [x, y_, _] = layout.centre(y, BodyId::ball(j));
             let r = x.hypot(y_);
@@ -176,7 +178,7 @@ fn between_races(
     y: &[f64],
     j: usize,
 ) -> Option<(f64, PureRolling)> {
-    let contacts = Race::BOTH.map(|race| inspect::contact(model, y, j, race));
+    let contacts = Race::BOTH.map(|race| inspect::raw::contact(model, y, j, race));
     let load = contacts[0].load.min(contacts[1].load);
     if load == 0.0 {
         return None;

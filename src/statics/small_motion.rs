@@ -75,7 +75,7 @@ struct BallInPlace<'m> {
 impl SmallMotion {
     /// The small motion of a ball in a state of all bodies in motion; none where it does not touch the inner race.
     pub fn of(model: &Model, y: &[f64], j: usize) -> Option<Self> {
-        if inspect::contact(model, y, j, Race::Inner).load <= 0.0 {
+        if inspect::raw::contact(model, y, j, Race::Inner).load <= 0.0 {
             return None;
         }
         let place = BallInPlace::of(model, y, j);

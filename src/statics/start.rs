@@ -1,4 +1,6 @@
-//! How a run begins: at rest in the cage's frame, or rolling from nominal places (model sections 8 and 13.5).
+//! How a run begins: at rest in the cage's frame, or rolling from nominal places ([*How a run
+//! begins*](crate::equations#how-a-run-begins-and-how-it-goes-on) and [*Rings that
+//! tilt*](crate::equations#rings-that-tilt-balls-that-spin-freely)).
 
 use crate::base::error::{Error, Result};
 use crate::contact::attitude_rates;
@@ -25,7 +27,7 @@ pub enum Start {
 /// The state at t = 0, rings where given motions have them.
 ///
 /// # Errors
-/// [`Error::Equilibrium`] if the load cannot be carried; [`Error::Scene`] for a state of wrong length or
+/// [`Error::Equilibrium`] if the load cannot be carried; [`Error::Argument`] for a state of wrong length or
 /// with a number that is not finite.
 pub fn start(model: &Model, start: &Start) -> Result<Vec<f64>> {
     let mut y = begin(model, start)?;
@@ -51,7 +53,7 @@ fn begin(model: &Model, start: &Start) -> Result<Vec<f64>> {
         Start::State(state) => {
             check_length(state.len(), model.dim())?;
             match state.iter().position(|x| !x.is_finite()) {
-                Some(i) => Err(Error::scene(
+                Some(i) => Err(Error::argument(
                     format!("start[{i}]"),
                     state[i],
                     "a finite number",
@@ -78,7 +80,7 @@ fn given(model: &Model, state: &[f64]) -> Result<Vec<f64>> {
         let attitude = Dof::ATTITUDE.map(|dof| y[layout.at(ball, dof)]);
         let length = attitude.iter().map(|e| e * e).sum::<f64>().sqrt();
         if (length - 1.0).abs() > LENGTH {
-            return Err(Error::scene(
+            return Err(Error::argument(
                 format!("start[{}]", layout.at(ball, Dof::E0)),
                 format!("{attitude:?}"),
                 "the four Euler parameters of a ball, whose squares add up to 1 within 1 %",
@@ -166,12 +168,12 @@ fn tilt(model: &Model, y: &mut [f64]) {
 /// Refuses a state that is not as long as a model's.
 ///
 /// # Errors
-/// [`Error::Scene`] names the lengths.
+/// [`Error::Argument`] names the lengths.
 pub fn check_length(length: usize, dim: usize) -> Result<()> {
     if length == dim {
         return Ok(());
     }
-    Err(Error::scene(
+    Err(Error::argument(
         "start",
         format!("{length} numbers"),
         format!("{dim} numbers, named by the model"),

@@ -73,7 +73,7 @@ impl Sink for Rubbed {
 pub(crate) fn keep(model: &Model, y: &mut [f64]) -> Vec<usize> {
     let mut kept = Vec::new();
     for row in &model.rows {
-        let loaded = |j: usize, race: Race| inspect::contact(model, y, j, race).load > 0.0;
+        let loaded = |j: usize, race: Race| inspect::raw::contact(model, y, j, race).load > 0.0;
         let pressed = row
             .balls()
             .filter(|&j| Race::BOTH.into_iter().all(|race| loaded(j, race)));

@@ -2,7 +2,7 @@
 
 use std::array::from_fn;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::problem::Problem;
 use super::unknowns::{OF_A_RING, OF_RINGS, RingStiffness, at, degree, first};
@@ -16,7 +16,7 @@ use crate::scene::Scene;
 /// Entry (i, j) is the force \[N\] that has to be added along i for a metre along j, in the limit of small moves:
 /// positive on the diagonal. The balls follow the rings, each free along its radius and along z at the angle where
 /// the cage holds it. Supports and gravity are no part of it; damping and friction neither.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Stiffness {
     /// Inner ring against a held outer ring: forces and moves of the inner ring along x, y, z \[N/m\].

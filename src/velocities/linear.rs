@@ -18,7 +18,7 @@ const FAST: f64 = 1.2;
 
 /// Share that contact damping takes off a velocity in a step, under the loads at the start, up to which rolling balls do without a matrix:
 /// a 6205 under thrust, at 0.43, runs 1.66 times as fast as the free model without and 1.45 with one; the wheel bearing without
-/// thrust, at 0.73, 1.04 and 1.30 times (`benches/approximations.py`).
+/// thrust, at 0.73, 1.04 and 1.30 times.
 const BEARS: f64 = 0.5;
 
 /// A right-hand side with the matrix of its contacts' friction, damping and stiffness, made now and then.

@@ -8,7 +8,7 @@ use crate::common;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use ballrace::scene::{
-    Defect, Drive, Friction, Method, NormalLaw, Scene, Slices, Surface, presets,
+    Defect, Drive, Friction, Method, NormalLaw, Patch, Scene, Slices, Surface, presets,
 };
 use ballrace::{Bandwidth, Run, Start, compile, equilibrium, simulate, start};
 use common::{Noise, running_errors, soon_over_the_spall};
@@ -79,12 +79,12 @@ fn random(noise: &mut Noise) -> Scene {
         Surface::InnerRace
     };
     let (width, length) = (noise.between(1e-3, 3e-3), noise.between(0.3e-3, 1.5e-3));
-    let spall = Defect::new(
+    let spall = Defect::of(
+        Patch::of_width(length * scale)
+            .length(width * scale)
+            .edge_radius(0.3e-3 * scale),
         on,
         -FRAC_PI_2,
-        width * scale,
-        length * scale,
-        0.3e-3 * scale,
     )
     .at_offset(noise.between(-0.5e-3, 0.5e-3) * scale);
     scene.defects = [("spall".to_owned(), spall)].into();
@@ -145,7 +145,12 @@ fn within_a_percent(count: usize) {
     let mut noise = Noise(2031);
     let mut small = presets::deep_groove_6205(500.0, 0.0, 1800.0);
     small.rows[0].start_angle = -FRAC_PI_2 - 0.13;
-    let spall = Defect::new(Surface::OuterRace, -FRAC_PI_2, 2e-3, 1e-3, 0.3e-3).at_offset(0.0);
+    let spall = Defect::of(
+        Patch::of_width(1e-3).length(2e-3).edge_radius(0.3e-3),
+        Surface::OuterRace,
+        -FRAC_PI_2,
+    )
+    .at_offset(0.0);
     small.defects.insert("spall".to_owned(), spall);
     let mut scenes = vec![soon_over_the_spall(3000.0), small];
     while scenes.len() < count + 2 {

@@ -4,7 +4,7 @@ use crate::common;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use ballrace::compile;
-use ballrace::scene::{Defect, Friction, Method, Scene, Slices, Surface, presets};
+use ballrace::scene::{Defect, Friction, Method, Patch, Scene, Slices, Surface, presets};
 use ballrace::{Bandwidth, Error, Run, Start, simulate, start};
 use common::{Noise, run};
 
@@ -35,12 +35,12 @@ fn random(noise: &mut Noise) -> Scene {
     };
     let angle = -FRAC_PI_2;
     let offset = noise.between(-0.5e-3, 0.5e-3);
-    let defect = Defect::new(
+    let defect = Defect::of(
+        Patch::of_width(noise.between(0.3e-3, 1.5e-3))
+            .length(noise.between(1e-3, 3e-3))
+            .edge_radius(0.3e-3),
         on,
         angle,
-        noise.between(1e-3, 3e-3),
-        noise.between(0.3e-3, 1.5e-3),
-        0.3e-3,
     )
     .at_offset(offset);
     scene.defects = [("spall".to_owned(), defect)].into();
@@ -175,7 +175,7 @@ fn the_choice_is_reported() {
 fn what_cannot_be_asked_is_refused() {
     let scene = presets::wheel_bearing(0.0);
     let refused = |run: &Run| match simulate(&scene, run) {
-        Err(Error::Scene { path, .. }) => path,
+        Err(Error::Scene { path, .. } | Error::Argument { path, .. }) => path,
         other => panic!("{other:?}"),
     };
     for accuracy in [0.0, -1.0, 1e-5, 0.5, f64::NAN] {

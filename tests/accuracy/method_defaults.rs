@@ -9,7 +9,7 @@ use crate::common;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use ballrace::compile;
-use ballrace::scene::{Defect, Drive, Friction, Method, Scene, Surface, presets};
+use ballrace::scene::{Defect, Drive, Friction, Method, Patch, Scene, Surface, presets};
 use ballrace::{Error, Run, Signals, Start, simulate, start};
 use common::{Noise, running_errors, short, soon_over_the_spall};
 
@@ -112,12 +112,12 @@ fn random(noise: &mut Noise) -> Case {
         Surface::InnerRace
     };
     let offset = noise.between(-0.5e-3, 0.5e-3);
-    let defect = Defect::new(
+    let defect = Defect::of(
+        Patch::of_width(noise.between(0.3e-3, 1.5e-3))
+            .length(noise.between(1e-3, 3e-3))
+            .edge_radius(0.3e-3),
         on,
         -FRAC_PI_2,
-        noise.between(1e-3, 3e-3),
-        noise.between(0.3e-3, 1.5e-3),
-        0.3e-3,
     )
     .at_offset(offset);
     scene.defects = [("spall".to_owned(), defect)].into();

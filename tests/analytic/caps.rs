@@ -3,7 +3,7 @@
 use ballrace::dynamics::rhs;
 use ballrace::inspect;
 use ballrace::scene::{
-    Damage, Defect, Drive, Friction, Mount, NormalLaw, Row, Scene, Slices, Support, Surface,
+    Cap, Defect, Drive, Friction, Mount, NormalLaw, Pit, Row, Scene, Slices, Support, Surface,
 };
 use ballrace::{Model, Race, Start, compile, explain, start};
 
@@ -38,17 +38,18 @@ fn free_rings(law: &NormalLaw) -> Scene {
 
 /// Ball 0 of row 0 at its start, with a cap beside its contact with the outer or the inner race.
 fn with_cap(scene: Scene, race: Race) -> Scene {
-    let cap = Defect::cap(0.06, 1.2e-3, 0.2e-3).at_offset(0.15e-3);
+    let cap = Defect::of(
+        Cap::of_width(1.2e-3).edge_radius(0.2e-3),
+        Surface::Ball,
+        0.06,
+    )
+    .at_offset(0.15e-3);
     with_round(scene, race, cap)
 }
 
 /// The same with a pit in its contact.
 fn with_pit(scene: Scene, race: Race) -> Scene {
-    let damage = Damage::Pit {
-        width: 0.3e-3,
-        length: Some(0.5e-3),
-    };
-    let pit = Defect::of(damage, Surface::Ball, 0.01);
+    let pit = Defect::of(Pit::of_width(0.3e-3).length(0.5e-3), Surface::Ball, 0.01);
     with_round(scene, race, pit.at_offset(0.1e-3))
 }
 
@@ -107,7 +108,7 @@ fn a_cap_between_tilted_rings_keeps_energy() {
                 rhs(&model, 0.0, &y, &mut dy);
                 let energy = |h: f64| {
                     let moved: Vec<f64> = y.iter().zip(&dy).map(|(y, d)| y + h * d).collect();
-                    inspect::energy(&model, &moved).total()
+                    inspect::energy(&model, &moved).unwrap().total()
                 };
                 let h = 2e-9;
                 let rate = (8.0 * (energy(h) - energy(-h)) - energy(2.0 * h) + energy(-2.0 * h))
@@ -134,7 +135,8 @@ fn a_cap_in_the_middle_keeps_the_plane() {
     scene.friction = Friction::None;
     let with = |offset: f64| {
         let mut scene = scene.clone();
-        let cap = Defect::cap(0.0, 1e-3, 0.3e-3).at_offset(offset);
+        let cap = Defect::of(Cap::of_width(1e-3).edge_radius(0.3e-3), Surface::Ball, 0.0)
+            .at_offset(offset);
         scene.defects.insert("pit".to_owned(), cap);
         let text = explain(&scene).unwrap().to_string();
         println!("{text}");

@@ -7,7 +7,7 @@ use ballrace::contact::{
     BallSide, ContactForce, Elastic, Law, Motion, Pair, Rules, Sink, Torus, Waves, ZoneSlices,
 };
 use ballrace::inspect;
-use ballrace::scene::{Component, Friction, NormalLaw, Probe, presets};
+use ballrace::scene::{Component, Friction, MotionProbe, NormalLaw, presets};
 use ballrace::{Race, Start, start};
 
 #[derive(Default)]
@@ -114,16 +114,13 @@ fn rolling_start_does_not_slip() {
     scene.rows[0].clearance = -4e-6;
     scene.probes = [(
         "outer".to_owned(),
-        Probe::Motion {
-            body: "outer".to_owned(),
-            components: Some(vec![Component::X]),
-        },
+        MotionProbe::of("outer").components([Component::X]).into(),
     )]
     .into();
     let model = compile(&scene).unwrap();
     let y = start(&model, &Start::Rolling).unwrap();
     for race in Race::BOTH {
-        let contact = inspect::contact(&model, &y, 3, race);
+        let contact = inspect::contact(&model, &y, 3, race).unwrap();
         assert!(contact.load > 1.0);
         assert!(
             (contact.angle.to_degrees() - 13.0).abs() < 0.2,
@@ -134,7 +131,7 @@ fn rolling_start_does_not_slip() {
         let mut skidding = y.clone();
         skidding[y.len() / 2 + 4 * 5 + 3] *= 0.9;
         assert!(
-            inspect::contact(&model, &skidding, 3, race).slip > 0.15,
+            inspect::contact(&model, &skidding, 3, race).unwrap().slip > 0.15,
             "a wrong spin must slip"
         );
     }

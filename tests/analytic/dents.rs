@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use ballrace::scene::{Damage, Defect, Scene, Surface, presets};
+use ballrace::scene::{Damage, Defect, Dent, Pit, Scene, Surface, presets};
 use ballrace::{Error, Signals, compile, explain};
 
 use crate::common::{apart, rms, run, short};
@@ -23,12 +23,10 @@ fn bearing(on: Surface, damage: Damage) -> Scene {
 }
 
 fn dent(width: f64, depth: f64, rim_height: f64) -> Damage {
-    Damage::Dent {
-        width,
-        length: None,
-        depth,
-        rim_height,
-    }
+    Dent::of_width(width)
+        .depth(depth)
+        .rim_height(rim_height)
+        .into()
 }
 
 fn ay(scene: &Scene) -> Vec<f64> {
@@ -60,11 +58,7 @@ fn a_dent_without_width_is_healthy() {
 #[test]
 fn a_deep_dent_without_a_rim_is_a_pit() {
     for on in SURFACES {
-        let pit = Damage::Pit {
-            width: 0.2e-3,
-            length: None,
-        };
-        let pit = ay(&bearing(on, pit));
+        let pit = ay(&bearing(on, Pit::of_width(0.2e-3).into()));
         let deep = ay(&bearing(on, dent(0.2e-3, 1e-4, 0.0)));
         let rimmed = ay(&bearing(on, dent(0.2e-3, 1e-4, 0.4e-6)));
         let (same, heard) = (apart(&deep, &pit), apart(&rimmed, &pit));
@@ -118,10 +112,7 @@ fn impossible_dents_are_refused() {
     // Beyond what is smaller than its contact.
     assert_eq!(of("width", 1.5e-3), "defects.dent.width");
     let mut pitted = bearing(Surface::OuterRace, dent(0.2e-3, 8e-6, 0.3e-6));
-    pitted.defects.get_mut("dent").unwrap().damage = Damage::Pit {
-        width: 0.2e-3,
-        length: None,
-    };
+    pitted.defects.get_mut("dent").unwrap().damage = Pit::of_width(0.2e-3).into();
     match pitted.with(&[("defects.dent.depth", 1e-6.into())]) {
         Err(Error::Scene { path, .. }) => assert_eq!(path, "defects.dent.depth"),
         other => panic!("{other:?}"),

@@ -8,8 +8,8 @@ use std::f64::consts::FRAC_PI_2;
 use ballrace::compile;
 use ballrace::dynamics::rhs;
 use ballrace::scene::{
-    Defect, Drive, Floor, Friction, GothicArch, Mount, NormalLaw, Probe, RingName, Scene, Slices,
-    Surface, Texture, Unbalance, Waviness, Width, WidthProfile, presets,
+    Cap, Defect, Dent, Drive, Floor, Friction, GothicArch, Mount, NormalLaw, Patch, Pit, Probe,
+    RingName, Scene, Slices, Surface, Texture, Unbalance, Waviness, Width, WidthProfile, presets,
 };
 use ballrace::{Error, Run, Signals, Start, equilibrium, start};
 use common::{effects, oiled, patch, run, short, through_points};
@@ -45,14 +45,8 @@ fn conservative(mut scene: Scene, law: &NormalLaw) -> Scene {
         }
     }
     scene.probes = [
-        ("e".to_owned(), Probe::Energy {}),
-        (
-            "inner".to_owned(),
-            Probe::Motion {
-                body: "inner".to_owned(),
-                components: None,
-            },
-        ),
+        ("e".to_owned(), Probe::energy()),
+        ("inner".to_owned(), Probe::motion("inner")),
     ]
     .into();
     scene
@@ -67,13 +61,13 @@ fn defect(scene: &Scene, on: Surface) -> Defect {
         Surface::InnerRace => (-0.23, ball.inner.zone_centre.unwrap(), 0.5e-3),
         _ => (0.9, 0.0, 0.5e-3),
     };
-    let mut defect = Defect::new(
+    let mut defect = Defect::of(
+        // Within the zone, which is as long as 1.5 mm or so.
+        Patch::of_width(width)
+            .length(if on == Surface::Ball { 2.2e-3 } else { 0.6e-3 })
+            .edge_radius(0.2e-3),
         on,
         angle - FRAC_PI_2,
-        // Within the zone, which is as long as 1.5 mm or so.
-        if on == Surface::Ball { 2.2e-3 } else { 0.6e-3 },
-        width,
-        0.2e-3,
     )
     .at_offset(place + 0.1e-3);
     defect.ball = (on == Surface::Ball).then_some(0);
@@ -92,7 +86,7 @@ fn with_defect(law: &NormalLaw, on: Surface, change: impl Fn(&mut Defect)) -> Sc
 pub(crate) fn with_pit(law: &NormalLaw, on: Surface) -> Scene {
     with_defect(law, on, |defect| {
         let ball = defect.ball;
-        *defect = Defect::pit(on, defect.angle, 0.2e-3);
+        *defect = Defect::of(Pit::of_width(0.2e-3), on, defect.angle);
         defect.ball = ball;
     })
 }
@@ -100,7 +94,11 @@ pub(crate) fn with_pit(law: &NormalLaw, on: Surface) -> Scene {
 /// A dent with a rim in the place of the pit.
 pub(crate) fn with_dent(law: &NormalLaw, on: Surface) -> Scene {
     with_defect(law, on, |defect| {
-        *defect = Defect::dent(on, defect.angle, 0.2e-3, 8e-6, 0.4e-6);
+        *defect = Defect::of(
+            Dent::of_width(0.2e-3).depth(8e-6).rim_height(0.4e-6),
+            on,
+            defect.angle,
+        );
     })
 }
 
@@ -139,7 +137,12 @@ fn scenes(law: &NormalLaw) -> Vec<(&'static str, Scene)> {
         (
             "cap",
             with_defect(law, Surface::Ball, |d| {
-                *d = Defect::cap(d.angle, 1e-3, 0.2e-3).at_offset(0.3e-3);
+                *d = Defect::of(
+                    Cap::of_width(1e-3).edge_radius(0.2e-3),
+                    Surface::Ball,
+                    d.angle,
+                )
+                .at_offset(0.3e-3);
             }),
         ),
         (
@@ -325,7 +328,7 @@ fn a_film_keeps_energy() {
             scene.drive = Drive::Speed(scene.drive.initial_speed().into());
             if on == Surface::InnerRace {
                 // Of a round, smooth ring the drive feels nothing.
-                scene.probes.insert("torque".to_owned(), Probe::Torque {});
+                scene.probes.insert("torque".to_owned(), Probe::torque());
             }
             let found = drift(&scene, 6e-3);
             println!("{law:?}, {on:?}: {found:.1e}");

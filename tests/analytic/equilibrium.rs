@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use ballrace::compile;
 use ballrace::dynamics::contributions;
-use ballrace::scene::{Defect, Material, Surface, presets};
+use ballrace::scene::{Defect, Material, Patch, Surface, presets};
 use ballrace::{Error, Start, equilibrium, start};
 
 /// Analytic: whatever the load and clearance, the balls carry it: forces on the free inner ring sum to the load.
@@ -63,7 +63,12 @@ fn a_ball_over_a_spall_is_found() {
         let mut loads = Vec::new();
         for width in [1e-6, 0.3e-3, 0.5e-3, 1e-3, 2e-3] {
             let mut scene = presets::deep_groove_6205(500.0, 200.0, 1800.0);
-            let defect = Defect::new(on, -FRAC_PI_2, 4e-3, width, 0.1e-3).at_offset(0.0);
+            let defect = Defect::of(
+                Patch::of_width(width).length(4e-3).edge_radius(0.1e-3),
+                on,
+                -FRAC_PI_2,
+            )
+            .at_offset(0.0);
             scene.defects.insert("spall".to_owned(), defect);
             loads.push(equilibrium(&scene).unwrap().balls[0].inner.load);
         }
@@ -84,7 +89,7 @@ fn a_ball_over_a_spall_is_found() {
 fn what_cannot_be_carried_is_refused() {
     let error = equilibrium(&presets::wheel_bearing(1e9)).unwrap_err();
     assert!(
-        matches!(&error, Error::Equilibrium { reason } if reason.contains("cannot be carried")),
+        matches!(&error, Error::Equilibrium { reason, ..} if reason.contains("cannot be carried")),
         "{error}"
     );
 }
@@ -94,7 +99,7 @@ fn what_cannot_be_carried_is_refused() {
 fn rings_that_lie_beyond_each_other_are_refused_with_numbers() {
     let mut scene = presets::deep_groove_6205(500.0, 100.0, 1800.0);
     scene.outer_ring.diameter = Some(60.048_663);
-    let Err(Error::Equilibrium { reason }) = equilibrium(&scene) else {
+    let Err(Error::Equilibrium { reason, .. }) = equilibrium(&scene) else {
         panic!("it is carried");
     };
     assert!(reason.starts_with("row0.ball"), "{reason}");

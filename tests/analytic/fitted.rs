@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use crate::common::rms;
 use ballrace::compile;
 use ballrace::dynamics::contributions;
-use ballrace::scene::{Defect, NormalLaw, Scene, Slices, Surface, presets};
+use ballrace::scene::{Defect, NormalLaw, Patch, Scene, Slices, Surface, presets};
 use ballrace::{Start, start};
 
 /// A single row at a contact angle, loaded by interference, with or without a defect at −90°.
@@ -101,8 +101,12 @@ fn faulted_contacts_converge() {
                     (0.4e-3, 1e-3, 0.0),
                     (1e-3, 6e-3, 0.3e-3),
                 ] {
-                    let mut defect =
-                        Defect::new(on, -FRAC_PI_2, length, width, 0.3e-3).at_offset(offset);
+                    let mut defect = Defect::of(
+                        Patch::of_width(width).length(length).edge_radius(0.3e-3),
+                        on,
+                        -FRAC_PI_2,
+                    )
+                    .at_offset(offset);
                     defect.ball = (on == Surface::Ball).then_some(0);
                     let scene = scene(law, 0.525, 13.0, Some(defect));
                     for (approach, arc) in [(20e-6, 0.0), (40e-6, 0.1e-3), (40e-6, 0.45e-3)] {
@@ -130,7 +134,12 @@ fn faulted_contacts_converge() {
 /// is not.
 #[test]
 fn no_jump_across_a_defects_end() {
-    let defect = Defect::new(Surface::OuterRace, -FRAC_PI_2, 1.5e-3, 1e-3, 0.3e-3).at_offset(2e-3);
+    let defect = Defect::of(
+        Patch::of_width(1e-3).length(1.5e-3).edge_radius(0.3e-3),
+        Surface::OuterRace,
+        -FRAC_PI_2,
+    )
+    .at_offset(2e-3);
     for law in &LAWS {
         let scene = scene(law, 0.525, 13.0, Some(defect.clone()));
         let largest = |slices: Slices| {

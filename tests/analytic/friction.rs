@@ -8,7 +8,7 @@ use ballrace::contact::{
     Torus, Traction, Waves, ZoneSlices,
 };
 use ballrace::dynamics::contributions;
-use ballrace::scene::{Defect, Friction, Material, Surface};
+use ballrace::scene::{Defect, Friction, Material, Patch, Surface};
 use ballrace::{Start, compile, start};
 use common::{Noise, apart, soon_over_the_spall};
 
@@ -126,7 +126,12 @@ fn hertz() -> Hertz {
 
 /// A spall of 1 mm under the ball, from −z of some place on.
 fn spall(end: f64) -> SurfaceDefect {
-    let defect = Defect::new(Surface::OuterRace, 0.0, 6e-3, 1e-3, 0.3e-3).at_offset(0.0);
+    let defect = Defect::of(
+        Patch::of_width(1e-3).length(6e-3).edge_radius(0.3e-3),
+        Surface::OuterRace,
+        0.0,
+    )
+    .at_offset(0.0);
     SurfaceDefect::new(&defect, end - 3e-3, 36e-3)
 }
 

@@ -25,10 +25,7 @@ fn accelerated(a: f64) -> TimeFunction {
 }
 
 fn motion(body: &str) -> Probe {
-    Probe::Motion {
-        body: body.to_owned(),
-        components: None,
-    }
+    Probe::motion(body)
 }
 
 /// From nominal places, so that balls strike; samples of points, since a filter changes a constant by 0.05 %.

@@ -7,7 +7,8 @@ use ballrace::compile;
 use ballrace::dynamics::contributions;
 use ballrace::inspect;
 use ballrace::scene::{
-    Defect, Friction, Load, NormalLaw, Probe, RingName, Scene, Slices, Support, Surface, presets,
+    Defect, Friction, Load, NormalLaw, Patch, Probe, RingName, Scene, Slices, Support, Surface,
+    presets,
 };
 use ballrace::{Bandwidth, Model, Race, Run, Start, start};
 
@@ -19,7 +20,12 @@ fn healthy() -> Scene {
 }
 
 fn spall(on: Surface, width: f64) -> Defect {
-    let mut defect = Defect::new(on, -FRAC_PI_2, 3e-3, width, 0.3e-3).at_offset(0.5e-3);
+    let mut defect = Defect::of(
+        Patch::of_width(width).length(3e-3).edge_radius(0.3e-3),
+        on,
+        -FRAC_PI_2,
+    )
+    .at_offset(0.5e-3);
     defect.ball = (on == Surface::Ball).then_some(1);
     defect
 }
@@ -81,11 +87,11 @@ fn rigid_rotation_slips_nowhere() {
         let (x, z) = (y[4 * b], y[4 * b + 1]);
         y[half + 4 * b..half + 4 * b + 4].copy_from_slice(&[-100.0 * z, 100.0 * x, 0.0, 100.0]);
     }
-    let energy = inspect::energy(&model, &y);
+    let energy = inspect::energy(&model, &y).unwrap();
     assert!(energy.friction_power < 1e-20, "{energy:?}");
     assert!(energy.damping_power.abs() < 1e-9, "{energy:?}");
     // And not because nothing can: the true motion slips.
-    let rolling = inspect::energy(&model, &start(&model, &Start::Equilibrium).unwrap());
+    let rolling = inspect::energy(&model, &start(&model, &Start::Equilibrium).unwrap()).unwrap();
     assert!(rolling.friction_power > 1e-3, "{rolling:?}");
 }
 
@@ -108,14 +114,8 @@ fn energy_is_kept_without_damping_and_friction() {
         scene.outer_ring.support = Support::default();
         scene.rows.truncate(1);
         scene.probes = [
-            ("e".to_owned(), Probe::Energy {}),
-            (
-                "inner".to_owned(),
-                Probe::Motion {
-                    body: "inner".to_owned(),
-                    components: None,
-                },
-            ),
+            ("e".to_owned(), Probe::energy()),
+            ("inner".to_owned(), Probe::motion("inner")),
         ]
         .into();
         // From nominal places under load: a violent shake. The loads' work is their force times travel.
@@ -212,7 +212,7 @@ fn force_at(model: &Model, y: &[f64], angle: f64, spin: f64) -> ([f64; 4], [f64;
     let half = y.len() / 2;
     y[half..].fill(0.0);
     let forces = &contributions(model, 0.0, &y)[0].1;
-    let loads = Race::BOTH.map(|race| inspect::contact(model, &y, 0, race).load);
+    let loads = Race::BOTH.map(|race| inspect::contact(model, &y, 0, race).unwrap().load);
     ([forces[0], forces[1], forces[4], forces[5]], loads)
 }
 

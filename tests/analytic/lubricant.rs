@@ -32,6 +32,7 @@ fn refused(scene: Result<Scene, Error>) -> [String; 3] {
             path,
             value,
             allowed,
+            ..
         }) => [path, value, allowed],
         other => panic!("{other:?}"),
     }
@@ -257,11 +258,7 @@ fn a_lubricant_may_be_read_alone() {
 fn a_raised_slip_floor_is_doubted_where_torque_counts() {
     let raised = with(vg68(&json!({"slip_floor": 0.05}))).unwrap();
     assert_eq!(raised.doubts(), []);
-    for probe in [
-        Probe::Torque {},
-        Probe::Lubrication { row: 0 },
-        Probe::Energy {},
-    ] {
+    for probe in [Probe::torque(), Probe::lubrication(0), Probe::energy()] {
         let mut scene = raised.clone();
         scene.probes.insert("torque".to_owned(), probe);
         assert_eq!(scene.doubts()[0].path, "lubricant.slip_floor");

@@ -1,4 +1,4 @@
-//! What oil does in contacts, of whole bearings at random states (model section 12.12).
+//! What oil does in contacts, of whole bearings at random states (`docs/model.md`, *Film*).
 //!
 //! Analytic: a film only lies between two bodies, takes energy and gives none, knows no place and no direction of its own, and
 //! has no kink. Both normal laws, defects on each body, contacts at an angle, the flanks of an arch.
@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 use ballrace::dynamics::{contributions, rhs};
 use ballrace::inspect;
 use ballrace::scene::{
-    Defect, Friction, GothicArch, Lubricant, NormalLaw, Scene, Slices, Surface, presets,
+    Defect, Friction, GothicArch, Lubricant, NormalLaw, Patch, Scene, Slices, Surface, presets,
 };
 use ballrace::{Model, Race, Start, compile, start};
 use common::{Noise, effects, oiled, one_ball};
@@ -56,7 +56,12 @@ fn wheel(law: &NormalLaw) -> Scene {
         ("ball", Surface::Ball, Some(1)),
     ] {
         let angle = if ball.is_some() { PI } else { -PI / 2.0 };
-        let mut defect = Defect::new(on, angle, 2e-3, 1e-3, 0.3e-3).at_offset(0.5e-3);
+        let mut defect = Defect::of(
+            Patch::of_width(1e-3).length(2e-3).edge_radius(0.3e-3),
+            on,
+            angle,
+        )
+        .at_offset(0.5e-3);
         defect.ball = ball;
         scene.defects.insert(name.to_owned(), defect);
     }
@@ -175,7 +180,7 @@ fn power_is_accounted_for() {
         let (mut worst, mut slope) = (0.0_f64, 0.0_f64);
         at_states(&scene, 8, |model, y| {
             let [elastic, damping, friction] = contacts(model, y);
-            let energy = inspect::energy(model, y);
+            let energy = inspect::energy(model, y).unwrap();
             let taken = power(&damping, y) + energy.damping_power;
             let rubbed = power(&friction, y) + energy.friction_power;
             let speeds = &y[y.len() / 2..];
@@ -191,7 +196,7 @@ fn power_is_accounted_for() {
                 for i in 0..half {
                     y[i] += step * y[half + i];
                 }
-                inspect::energy(model, &y).contact
+                inspect::energy(model, &y).unwrap().contact
             };
             let step = 1e-8;
             let rate = (8.0 * (stored(step) - stored(-step))
@@ -272,7 +277,7 @@ fn squeezed(law: &NormalLaw) -> Scene {
 }
 
 /// Contacts begin at the gap h, softer than in proportion to the approach, damped, rubbing and resisted alike. On the
-/// outer race h is that of model section 12.14.
+/// outer race h is that of the reference contact.
 #[test]
 fn contacts_begin_softly() {
     for law in [NormalLaw::Hertz, NormalLaw::iso16281()] {
@@ -371,8 +376,12 @@ fn a_defect_in_reach_is_not_felt() {
             let (width, radius) = (1e-3, 19.52e-3 + 3.97e-3);
             let defect = |angle: f64| {
                 let mut scene = scene.clone();
-                let spall =
-                    Defect::new(Surface::OuterRace, angle, 7e-3, width, 0.3e-3).at_offset(0.0);
+                let spall = Defect::of(
+                    Patch::of_width(width).length(7e-3).edge_radius(0.3e-3),
+                    Surface::OuterRace,
+                    angle,
+                )
+                .at_offset(0.0);
                 scene.defects.insert("spall".to_owned(), spall);
                 compile(&scene).unwrap()
             };
@@ -451,6 +460,6 @@ fn rows_keep_their_oils() {
             }
         }
     }
-    let loads = |j: usize| inspect::contact(&model, &y, j, Race::Outer).load;
+    let loads = |j: usize| inspect::contact(&model, &y, j, Race::Outer).unwrap().load;
     assert!((0..26).map(loads).sum::<f64>() > 1e3);
 }

@@ -1,4 +1,4 @@
-//! Runs in oil: what settles, what it costs to turn, how balls skid (model section 12.12, numbers 9 and 10).
+//! Runs in oil: what settles, what it costs to turn, how balls skid.
 
 use crate::common;
 use ballrace::dynamics::{Dynamics, contributions};
@@ -16,15 +16,7 @@ fn bearing(load: f64, speed_rpm: f64, celsius: f64) -> Scene {
     scene.probes = bodies
         .into_iter()
         .chain(balls)
-        .map(|body| {
-            (
-                body.replace('.', "_"),
-                Probe::Motion {
-                    body,
-                    components: None,
-                },
-            )
-        })
+        .map(|body| (body.replace('.', "_"), Probe::motion(body)))
         .collect();
     scene
 }
@@ -95,7 +87,7 @@ fn skid(load: f64, speed_rpm: f64, celsius: &[f64], (duration, last): (f64, f64)
     speeds.collect()
 }
 
-/// Limit (model section 12.12): under load balls roll in oil as they do without, over one turn of the cage.
+/// Limit: under load balls roll in oil as they do without, over one turn of the cage.
 #[test]
 fn a_loaded_bearing_rolls() {
     let found = skid(500.0, 1797.0, &[55.0], (0.17, 0.084));
@@ -103,7 +95,7 @@ fn a_loaded_bearing_rolls() {
     assert!((found[0] - 1.0).abs() < 2e-3, "{found:?}");
 }
 
-/// Literature (model section 12.12, an independent trial): a light, fast bearing skids, more with thinner oil. It settles within 10 ms
+/// Literature (an independent trial): a light, fast bearing skids, more with thinner oil. It settles within 10 ms
 /// at 30 °C and within 80 ms at 90 °C.
 #[test]
 fn a_light_fast_bearing_skids() {
@@ -135,7 +127,7 @@ fn the_drive_pays_for_the_losses() {
             .map(|name| of(name)[7])
             .sum();
         given -= torque * y[half + 7];
-        let energy = inspect::energy(&model, &y);
+        let energy = inspect::energy(&model, &y).unwrap();
         let rolling = -power(of("friction")) - energy.friction_power;
         let losses = [
             energy.friction_power,
@@ -193,7 +185,7 @@ fn films_follow_the_speed() {
     let truth = forces(&steady, &y);
     let error = apart(&forces(&rising, &y), &truth);
     assert!(error < 1e-11, "{error:e}");
-    let film = |model: &Model, y: &[f64]| inspect::lubrication(model, y, 0).film[0];
+    let film = |model: &Model, y: &[f64]| inspect::lubrication(model, y, 0).unwrap().film[0];
     assert!((film(&rising, &y) / film(&steady, &y) - 1.0).abs() < 1e-12);
     let held = apart(&forces(&rising, &late), &forces(&steady, &late));
     assert!(held > 1e-3, "{held:e}");

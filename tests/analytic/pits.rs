@@ -1,10 +1,10 @@
-//! Pits smaller than their contact (model section 15): limits, symmetry, conservation, stability.
+//! Pits smaller than their contact (`docs/model.md`, *Defects*): limits, symmetry, conservation, stability.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use ballrace::dynamics::contributions;
 use ballrace::inspect::contact;
-use ballrace::scene::{Defect, Drive, NormalLaw, Probe, Scene, Spin, Surface, presets};
+use ballrace::scene::{Defect, Drive, NormalLaw, Pit, Probe, Scene, Spin, Surface, presets};
 use ballrace::{Race, Signals, Start, compile, start};
 
 use crate::common::{apart, effects, oiled, one_ball, run, short};
@@ -14,7 +14,7 @@ const SURFACES: [Surface; 3] = [Surface::OuterRace, Surface::InnerRace, Surface:
 
 /// A pit of row 0, of ball 0 where it is a ball's, which lies at an angle.
 fn pit(on: Surface, angle: f64, diameter: f64) -> Defect {
-    let mut pit = Defect::pit(on, angle, diameter);
+    let mut pit = Defect::of(Pit::of_width(diameter), on, angle);
     pit.ball = (on == Surface::Ball).then_some(0);
     pit
 }
@@ -87,7 +87,7 @@ fn a_film_over_a_pit_keeps_energy() {
             effects(scene.lubricant.as_mut().unwrap(), "film");
             scene.drive = Drive::Speed(scene.drive.initial_speed().into());
             if on == Surface::InnerRace {
-                scene.probes.insert("torque".to_owned(), Probe::Torque {});
+                scene.probes.insert("torque".to_owned(), Probe::torque());
             }
             let found = drift(&scene, 6e-3);
             println!("{law:?}, {on:?}: {found:.1e}");
@@ -210,7 +210,7 @@ fn light_contacts_push_at_a_pit() {
                 for approach in [0.01e-6, 0.03e-6, 0.1e-6, 0.3e-6, 1e-6, 3e-6] {
                     y[8] = middle - sigma * (squeeze / 4.0 - approach);
                     let [before, left] =
-                        [&whole, &pitted].map(|model| contact(model, &y, 0, race).load);
+                        [&whole, &pitted].map(|model| contact(model, &y, 0, race).unwrap().load);
                     assert!(before > 1e-3, "{before}");
                     least = least.min(left / before);
                     assert!(

@@ -7,8 +7,8 @@ use std::f64::consts::PI;
 use ballrace::InstructionSet;
 use ballrace::dynamics::Dynamics;
 use ballrace::scene::{
-    Defect, Friction, GothicArch, Load, NormalLaw, RaceProfile, RingName, Scene, Slices, Surface,
-    Waviness, presets,
+    Defect, Friction, GothicArch, Load, NormalLaw, Patch, RaceProfile, RingName, Scene, Slices,
+    Surface, Waviness, presets,
 };
 use ballrace::{
     Equilibrium, Error, Model, Race, Start, compile, equilibrium, inspect, load_distribution,
@@ -35,7 +35,8 @@ fn difference(scene: &Scene, other: &Scene, instructions: InstructionSet) -> f64
             y[half + i] += speed * noise.next();
         }
         let (a, b) = (one.forces(0.0, &y), two.forces(0.0, &y));
-        let loads = |j: usize| Race::BOTH.map(|race| inspect::contact(&model, &y, j, race).load);
+        let loads =
+            |j: usize| Race::BOTH.map(|race| inspect::contact(&model, &y, j, race).unwrap().load);
         let balls: Vec<[f64; 2]> = (0..model.body_count() - 2).map(loads).collect();
         for (body, (a, b)) in a.iter().zip(&b).enumerate() {
             let size: f64 = if body < 2 {
@@ -59,7 +60,12 @@ fn wheel(law: NormalLaw, slices: Slices) -> Scene {
 }
 
 fn spall(on: Surface) -> Defect {
-    let mut defect = Defect::new(on, -1.5, 2e-3, 1e-3, 0.3e-3).at_offset(0.5e-3);
+    let mut defect = Defect::of(
+        Patch::of_width(1e-3).length(2e-3).edge_radius(0.3e-3),
+        on,
+        -1.5,
+    )
+    .at_offset(0.5e-3);
     defect.ball = (on == Surface::Ball).then_some(1);
     defect
 }
@@ -234,7 +240,7 @@ fn a_radial_load_has_four_contacts() {
         let y = start(&model, &Start::Equilibrium).unwrap();
         for race in Race::BOTH {
             let mut sides = [(0.0, 0.0); 2];
-            for slice in inspect::slice_forces(&model, &y, 0, race) {
+            for slice in inspect::slice_forces(&model, &y, 0, race).unwrap() {
                 let side = &mut sides[usize::from(slice.z > 0.0)];
                 *side = (side.0 + slice.force, side.1 + slice.force * slice.zeta);
             }

@@ -1,14 +1,14 @@
 //! How runs begin: balls that are held stay, and what a given state says of attitudes is held to what they are.
 
 use ballrace::dynamics::rhs;
-use ballrace::scene::{Defect, Mount, Scene, Spin, presets};
+use ballrace::scene::{Cap, Defect, Mount, Scene, Spin, Surface, presets};
 use ballrace::{Error, Model, Start, compile, explain, start};
 
 /// A 6205 under thrust whose ball 2 has a cap and whose balls spin freely.
 fn capped() -> Scene {
     let mut scene = presets::deep_groove_6205(300.0, 600.0, 1500.0);
     scene.spin = Some(Spin::Free);
-    let cap = Defect::cap(0.3, 1e-3, 0.05e-3).on_ball(2);
+    let cap = Defect::of(Cap::of_width(1e-3).edge_radius(0.05e-3), Surface::Ball, 0.3).on_ball(2);
     scene.defects.insert("pit".to_owned(), cap);
     scene
 }
@@ -64,7 +64,7 @@ fn given_attitudes_are_attitudes() {
     assert_eq!(given(&y0).unwrap()[first], 1.0);
     y0[first] = 0.0;
     match given(&y0) {
-        Err(Error::Scene { path, allowed, .. }) => {
+        Err(Error::Argument { path, allowed, .. }) => {
             assert_eq!(path, format!("start[{first}]"));
             assert!(allowed.contains("Euler parameters"), "{allowed}");
         }

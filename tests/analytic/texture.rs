@@ -1,8 +1,9 @@
-//! Waves of surfaces: where they move a bearing (model section 14.6), and how texture is read, drawn, limited and explained.
+//! Waves of surfaces: where they move a bearing (`docs/model.md`, *Defects*), and how texture is read, drawn, limited and explained.
 
 use ballrace::dynamics::{contributions, rhs};
 use ballrace::scene::{
-    Defect, Drive, GothicArch, Mount, NormalLaw, Scene, Spin, Surface, Texture, Waviness, presets,
+    Cap, Defect, Drive, GothicArch, Mount, NormalLaw, Patch, Scene, Spin, Surface, Texture,
+    Waviness, presets,
 };
 use ballrace::{Error, Start, compile, equilibrium, explain, start};
 
@@ -44,7 +45,7 @@ fn stands(outer: bool, (order, amplitude): (u32, f64), [ring, balls]: [f64; 2]) 
     equilibrium(&scene).unwrap().inner
 }
 
-/// The quasi-static numbers of model section 14.6.
+/// Quasi-static numbers, computed apart from this crate.
 #[test]
 fn the_contact_is_that_of_the_model() {
     let found = equilibrium(&thrust()).unwrap();
@@ -238,7 +239,7 @@ fn a_seed_is_a_surface() {
     assert_ne!(record(3), record(4));
 }
 
-/// Analytic: the step that sees waves down to half of the contact's width (model section 14.4), at a speed where contacts ask for longer ones.
+/// Analytic: the step that sees waves down to half of the contact's width, at a speed where contacts ask for longer ones.
 #[test]
 fn steps_see_the_shortest_waves() {
     let mut scene = presets::deep_groove_6205(300.0, 80.0, 20_000.0);
@@ -257,7 +258,7 @@ fn steps_see_the_shortest_waves() {
     );
 }
 
-/// Model section 14.5: one error that names the field.
+/// Refusals: one error that names the field.
 #[test]
 fn impossible_textures_are_refused() {
     let refused = |change: &dyn Fn(&mut Scene)| {
@@ -293,7 +294,7 @@ fn impossible_textures_are_refused() {
     let tumbling = |scene: &mut Scene| {
         scene.spin = Some(Spin::Free);
         scene.rows[0].texture.as_mut().unwrap().ball = 1e-11;
-        let mut cap = Defect::cap(0.0, 1e-3, 0.2e-3);
+        let mut cap = Defect::of(Cap::of_width(1e-3).edge_radius(0.2e-3), Surface::Ball, 0.0);
         cap.ball = Some(0);
         scene.defects.insert("cap".into(), cap);
     };
@@ -319,7 +320,7 @@ fn without_equilibrium_a_load_is_asked_for() {
     assert!(compile(&scene).is_ok());
 }
 
-/// A texture stands beside listed waves, defects and oil, and is explained as model section 14.5 has it.
+/// A texture stands beside listed waves, defects and oil, and is explained.
 #[test]
 fn a_texture_is_explained() {
     let mut scene = textured(1e-9);
@@ -329,7 +330,11 @@ fn a_texture_is_explained() {
     row.outer_waviness = vec![Waviness::new(9, 1e-6, 0.0)];
     scene.defects.insert(
         "spall".into(),
-        Defect::new(Surface::OuterRace, -1.5, 2e-3, 0.5e-3, 0.3e-3),
+        Defect::of(
+            Patch::of_width(0.5e-3).length(2e-3).edge_radius(0.3e-3),
+            Surface::OuterRace,
+            -1.5,
+        ),
     );
     let explanation = explain(&scene).unwrap();
     let [outer, inner, balls] = &explanation.textures[..] else {

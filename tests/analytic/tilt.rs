@@ -4,8 +4,8 @@ use crate::common;
 use ballrace::dynamics::Dynamics;
 use ballrace::integrate::System;
 use ballrace::scene::{
-    Component, CoupledSupport, Friction, Load, Lubricant, Method, Moment, Mount, Probe, RingName,
-    Scene, Spin, Unbalance, presets,
+    Component, CoupledSupport, Friction, Load, Lubricant, Method, Moment, MotionProbe, Mount,
+    Probe, RingName, Scene, Spin, Unbalance, presets,
 };
 use ballrace::{Explanation, Reduction, Run, Start, Warning, compile, explain, simulate, start};
 use common::{apart, oiled, run, short};
@@ -177,10 +177,9 @@ fn what_cannot_tilt_is_refused_by_name() {
         (
             "probes.ball.motion.components",
             Box::new(|s| {
-                let probe = Probe::Motion {
-                    body: "row0.ball0".to_owned(),
-                    components: Some(vec![Component::TiltX]),
-                };
+                let probe = MotionProbe::of("row0.ball0")
+                    .components([Component::TiltX])
+                    .into();
                 s.probes.insert("ball".to_owned(), probe);
             }),
         ),
@@ -382,7 +381,7 @@ fn a_crooked_ring_stays_crooked() {
     scene.inner_ring.tilt = Some([1e-3, 0.0]);
     let support = &mut scene.inner_ring.support;
     (support.tilt_x, support.tilt_y) = (None, None);
-    scene.probes.insert("moments".to_owned(), Probe::Moments {});
+    scene.probes.insert("moments".to_owned(), Probe::moments());
     let out = run(&scene, &rolling(2e-4));
     assert!(
         out.get("inner.tilt_x")
@@ -401,7 +400,7 @@ fn oil_lies_in_contacts_of_rings_that_tilt() {
     let mut oil = Lubricant::named("vg68", 328.15);
     oil.reference_load = Some(200.0);
     scene.lubricant = Some(oil);
-    scene.probes = [("oil".to_owned(), Probe::Lubrication { row: 0 })].into();
+    scene.probes = [("oil".to_owned(), Probe::lubrication(0))].into();
     let out = run(&scene, &rolling(2e-4));
     for name in ["slip_power", "rolling_power", "damping_power", "outer.film"] {
         let values = out.get(&format!("oil.{name}")).unwrap();

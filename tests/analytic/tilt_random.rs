@@ -150,7 +150,7 @@ fn random_bearings_find_their_balance_or_say_why_not() {
                 );
             }
             // One row that tilts one way lifts off where the moment outweighs its thrust.
-            Err(Error::Equilibrium { reason }) => {
+            Err(Error::Equilibrium { reason, .. }) => {
                 println!("scene {k}: {reason}");
                 let row = &scene.rows[0];
                 assert!(

@@ -137,14 +137,7 @@ pub fn one_ball(squeeze: f64) -> Scene {
     (scene.outer_ring.support, scene.inner_ring.support) = (held.clone(), held);
     (scene.cage, scene.friction, scene.gravity) = (None, Friction::None, [0.0; 3]);
     scene.contact.damping = 0.0;
-    scene.probes = [(
-        "ball".to_owned(),
-        Probe::Motion {
-            body: "row0.ball0".to_owned(),
-            components: None,
-        },
-    )]
-    .into();
+    scene.probes = [("ball".to_owned(), Probe::motion("row0.ball0"))].into();
     scene
 }
 
@@ -202,12 +195,7 @@ pub fn orbit(y: &[f64], body: usize) -> f64 {
 /// Length, width and floor of a defect that is a patch.
 pub fn patch(defect: &mut Defect) -> (&mut f64, &mut Width, &mut Option<Floor>) {
     match &mut defect.damage {
-        Damage::Patch {
-            length,
-            width,
-            floor,
-            ..
-        } => (length, width, floor),
+        Damage::Patch(of) => (&mut of.length, &mut of.width, &mut of.floor),
         other => panic!("{other:?}"),
     }
 }

@@ -11,8 +11,8 @@ use ballrace::dynamics::rhs;
 use ballrace::inspect;
 use ballrace::integrate::System;
 use ballrace::scene::{
-    Approximations, Defect, Drive, Friction, Method, Mount, NormalLaw, Profile, Scene, Surface,
-    TimeFunction, presets,
+    Approximations, Defect, Drive, Friction, Method, Mount, NormalLaw, Patch, Profile, Scene,
+    Surface, TimeFunction, presets,
 };
 use ballrace::{Model, Race, Run, Start, simulate, start};
 use common::Noise;
@@ -149,9 +149,13 @@ fn places_speeds_and_rates_belong_together() {
     }));
     scene.defects.insert(
         "pit".to_owned(),
-        Defect::new(Surface::Ball, PI, 1e-3, 0.5e-3, 0.3e-3)
-            .on_ball(3)
-            .at_offset(0.0),
+        Defect::of(
+            Patch::of_width(0.5e-3).length(1e-3).edge_radius(0.3e-3),
+            Surface::Ball,
+            PI,
+        )
+        .on_ball(3)
+        .at_offset(0.0),
     );
     let model = compile(&scene).unwrap();
     let shaken = Shaken::new(&model, 5);
@@ -282,7 +286,11 @@ fn an_unloaded_row_goes() {
     let free = shaken.free();
     let loads = |row: usize| -> f64 {
         (13 * row..13 * (row + 1))
-            .map(|j| inspect::contact(&model, &shaken.full, j, Race::Inner).load)
+            .map(|j| {
+                inspect::contact(&model, &shaken.full, j, Race::Inner)
+                    .unwrap()
+                    .load
+            })
             .sum()
     };
     let idle = usize::from(loads(1) < loads(0));

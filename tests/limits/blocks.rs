@@ -2,19 +2,14 @@
 
 use std::ops::ControlFlow::{self, Break, Continue};
 
-use ballrace::scene::{Probe, Scene, presets};
+use ballrace::scene::{ContactsProbe, Scene, presets};
 use ballrace::{Block, Error, Run, Signals, simulate, simulate_into, simulate_with_progress};
 
 /// So many columns that a block has some hundred samples: filtered motion, and points of contacts.
 fn scene() -> Scene {
     let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
     for k in 0..40 {
-        let contacts = Probe::Contacts {
-            row: 0,
-            balls: None,
-            races: None,
-            quantities: None,
-        };
+        let contacts = ContactsProbe::of_row(0).into();
         scene.probes.insert(format!("contacts{k}"), contacts);
     }
     scene
@@ -42,7 +37,7 @@ fn blocks_are_the_record_that_is_kept() {
         let rows = at..at + block.t.len();
         assert_eq!(block.t, kept.t[rows.clone()]);
         for (column, whole) in block.columns.iter().zip(&kept.columns) {
-            assert_eq!((&column.name, column.unit), (&whole.name, whole.unit));
+            assert_eq!((&column.name, &column.unit), (&whole.name, &whole.unit));
             let (found, wanted) = (column.values.iter(), whole.values[rows.clone()].iter());
             assert!(
                 found.map(|x| x.to_bits()).eq(wanted.map(|x| x.to_bits())),

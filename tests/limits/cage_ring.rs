@@ -1,5 +1,5 @@
 //! Limits: runs with a cage that is a ring. Without gravity its balls roll; without play it is the cage of links; what play and errors of
-//! pockets change is bounded by their size. A healthy bearing does not rattle. Numbers are those of model section 19.
+//! pockets change is bounded by their size. A healthy bearing does not rattle. Numbers are those of trials apart from this crate.
 
 use std::f64::consts::{PI, TAU};
 
@@ -36,9 +36,7 @@ fn bearing(clearance: f64, cage: Option<Cage>) -> Scene {
     (support.x, support.y) = (Some(Mount::Fixed), Some(Mount::Fixed));
     scene.cage = cage;
     scene.probes.clear();
-    scene
-        .probes
-        .insert("cage".to_owned(), Probe::Cage { row: 0 });
+    scene.probes.insert("cage".to_owned(), Probe::cage(0));
     scene
 }
 
@@ -155,10 +153,7 @@ fn scatter(times: &[f64], lag: usize) -> f64 {
 
 fn with_balls(mut scene: Scene) -> Scene {
     for k in 0..9 {
-        let motion = Probe::Motion {
-            body: format!("row0.ball{k}"),
-            components: None,
-        };
+        let motion = Probe::motion(format!("row0.ball{k}"));
         scene.probes.insert(format!("ball{k}"), motion);
     }
     scene
@@ -250,7 +245,7 @@ fn pockets_cost_no_steps() {
     }
 }
 
-/// Truth: the planar trial of model section 19, with its pockets: differences of cage over shaft from rolling, at clearance 0 and 10 µm.
+/// Truth: a planar trial apart from this crate, with its pockets: differences of cage over shaft from rolling, at clearance 0 and 10 µm.
 #[test]
 fn a_held_cage_meets_the_trial() {
     let trial = [
@@ -296,11 +291,8 @@ fn energy_is_that_which_the_cage_leaves() {
             value: 0.0.into(),
             initial_speed: TAU * SHAFT,
         };
-        scene.probes.insert("e".to_owned(), Probe::Energy {});
-        let motion = Probe::Motion {
-            body: "inner".to_owned(),
-            components: None,
-        };
+        scene.probes.insert("e".to_owned(), Probe::energy());
+        let motion = Probe::motion("inner");
         scene.probes.insert("inner".to_owned(), motion);
         let run = Run {
             duration: 0.02,
@@ -328,10 +320,7 @@ fn energy_is_that_which_the_cage_leaves() {
 /// Sound of the outer ring: root mean square \[m/s²\] and kurtosis of its vertical acceleration above 50 Hz.
 fn sound(scene: &Scene) -> [f64; 2] {
     let mut scene = scene.clone();
-    let motion = Probe::Motion {
-        body: "outer".to_owned(),
-        components: None,
-    };
+    let motion = Probe::motion("outer");
     scene.probes = [("outer".to_owned(), motion)].into();
     let run = Run {
         duration: 0.3,
@@ -355,7 +344,7 @@ fn sound(scene: &Scene) -> [f64; 2] {
 }
 
 /// Measured: healthy bearings have 0.7 m/s² and a kurtosis near 3; links gave 1.5 m/s² and 25. Smooth, at most 0.25 m/s²; with a floor of
-/// 0.2 m/s² or 3 nm of texture a kurtosis of 4 at most, where texture by itself has no more (model section 19.1).
+/// 0.2 m/s² or 3 nm of texture a kurtosis of 4 at most, where texture by itself has no more.
 #[test]
 fn a_healthy_bearing_does_not_rattle() {
     for (rpm, load, clearance) in [
@@ -415,22 +404,20 @@ fn a_ball_out_of_its_pocket_ends_the_run() {
 fn soft_pockets_leave_impacts_as_they_are() {
     let mut scene = presets::deep_groove_6205(500.0, 0.0, 1797.0);
     scene.rows[0].clearance = 10e-6;
-    let spall = ballrace::scene::Defect::new(
+    let spall = ballrace::scene::Defect::of(
+        ballrace::scene::Patch::of_width(1e-3)
+            .length(8e-3)
+            .edge_radius(0.3e-3),
         ballrace::scene::Surface::OuterRace,
         -PI / 2.0,
-        8e-3,
-        1e-3,
-        0.3e-3,
     );
-    assert!(matches!(spall.damage, Damage::Patch { .. }));
+    assert!(matches!(spall.damage, Damage::Patch(_)));
     scene
         .defects
         .insert("spall".to_owned(), spall.at_offset(0.0));
     let [with_links, _] = sound(&scene);
     scene.cage = ring(|_| {});
-    scene
-        .probes
-        .insert("cage".to_owned(), Probe::Cage { row: 0 });
+    scene.probes.insert("cage".to_owned(), Probe::cage(0));
     let [with_ring, _] = sound(&scene);
     let out = over(&scene, 0.2, 0.05);
     let force = |k: usize| out.get(&format!("cage.pocket{k}.force")).unwrap();

@@ -11,15 +11,15 @@ use ballrace::dynamics::contributions;
 use ballrace::dynamics::rhs;
 use ballrace::inspect;
 use ballrace::scene::{
-    Damage, Defect, Friction, GothicArch, Lubricant, Mount, NormalLaw, Scene, Slices, Surface,
-    Texture, Waviness, presets,
+    Damage, Defect, Friction, GothicArch, Lubricant, Mount, NormalLaw, Patch, Pit, Scene, Slices,
+    Surface, Texture, Waviness, presets,
 };
 use ballrace::{Model, Race, Start, start};
 use common::{Noise, effects, oiled, through_points};
 
 /// Largest difference of the two evaluations at random states around an equilibrium, over the sum of the contact
 /// loads on a body and 1 kN: the distance of two axes is known to 4e-18 m, which a contact of some 1e8 N/m turns
-/// into 4e-10 N whatever its load (model section 10).
+/// into 4e-10 N whatever its load.
 fn difference(scene: &Scene, instructions: InstructionSet) -> f64 {
     let model = compile(scene).unwrap().with_instructions(instructions);
     let calm = start(&model, &Start::Equilibrium).unwrap();
@@ -42,7 +42,7 @@ fn difference_tilted(scene: &Scene, instructions: InstructionSet) -> f64 {
     // What turns round defects of balls across a tilted axis is not among the forces by origin.
     scene
         .defects
-        .retain(|_, defect| matches!(defect.damage, Damage::Patch { .. }) || defect.ball.is_none());
+        .retain(|_, defect| matches!(defect.damage, Damage::Patch(_)) || defect.ball.is_none());
     let tilted = compile(&scene).unwrap().with_instructions(instructions);
     let (places, speeds) = calm.split_at(calm.len() / 2);
     difference_around(&tilted, &[places, &[0.0; 4], speeds, &[0.0; 4]].concat())
@@ -65,7 +65,8 @@ fn difference_around(model: &Model, calm: &[f64]) -> f64 {
         }
         let found = dynamics.forces(0.0, &y);
         let parts = contributions(model, 0.0, &y);
-        let loads = |j: usize| Race::BOTH.map(|race| inspect::contact(model, &y, j, race).load);
+        let loads =
+            |j: usize| Race::BOTH.map(|race| inspect::contact(model, &y, j, race).unwrap().load);
         let balls: Vec<[f64; 2]> = (0..model.body_count() - 2).map(loads).collect();
         for (b, force) in found.iter().enumerate() {
             let size: f64 = if b < 2 {
@@ -131,7 +132,12 @@ fn scenes() -> Vec<(String, Scene)> {
         ("ball", Surface::Ball, Some(1)),
     ] {
         let angle = if ball.is_some() { PI } else { -FRAC_PI_2 };
-        let mut defect = Defect::new(on, angle, 2e-3, 1e-3, 0.3e-3).at_offset(0.5e-3);
+        let mut defect = Defect::of(
+            Patch::of_width(1e-3).length(2e-3).edge_radius(0.3e-3),
+            on,
+            angle,
+        )
+        .at_offset(0.5e-3);
         defect.ball = ball;
         scene.defects.insert(name.to_owned(), defect);
     }
@@ -152,13 +158,13 @@ fn scenes() -> Vec<(String, Scene)> {
         ("inner", Surface::InnerRace, None),
         ("ball", Surface::Ball, Some(1)),
     ] {
-        let mut pit = Defect::pit(on, -FRAC_PI_2, 0.3e-3).at_offset(2e-3);
+        let mut pit = Defect::of(Pit::of_width(0.3e-3), on, -FRAC_PI_2).at_offset(2e-3);
         pit.ball = ball;
         pitted.defects.insert(name.to_owned(), pit);
     }
     pitted
         .defects
-        .retain(|_, defect| !matches!(defect.damage, Damage::Patch { .. }));
+        .retain(|_, defect| !matches!(defect.damage, Damage::Patch(_)));
     add("pits everywhere", pitted.clone());
     pitted.contact.law = NormalLaw::Hertz;
     add("pits everywhere, Hertz", pitted);

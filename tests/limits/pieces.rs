@@ -22,9 +22,9 @@ fn scenes() -> Vec<(&'static str, Scene)> {
     let deep = presets::deep_groove_6205(500.0, 0.0, 1800.0);
     let mut wheel = presets::wheel_bearing(3000.0);
     for (name, probe) in [
-        ("cage", Probe::Cage { row: 0 }),
-        ("energy", Probe::Energy {}),
-        ("torque", Probe::Torque {}),
+        ("cage", Probe::cage(0)),
+        ("energy", Probe::energy()),
+        ("torque", Probe::torque()),
     ] {
         wheel.probes.insert(name.to_owned(), probe);
     }
@@ -536,7 +536,8 @@ fn motions_that_cannot_be_set_are_refused_by_name() {
     ] {
         let motions = [(TILTED, [0.0, 0.0]), (path, [place, speed])];
         let refused = simulation.set_motions(&motions, until);
-        let Err(Error::Scene { path: found, .. }) = refused else {
+        let Err(Error::Scene { path: found, .. } | Error::Argument { path: found, .. }) = refused
+        else {
             panic!("{path}: {refused:?}")
         };
         assert_eq!(found, named);
@@ -545,7 +546,7 @@ fn motions_that_cannot_be_set_are_refused_by_name() {
     let refused = simulation.set_loads(&[(PUSHED, 0.0)]);
     assert!(matches!(refused, Err(Error::Scene { path, .. }) if path == PUSHED));
     let refused = simulation.change(&[("inner_ring.support.y", "fixed".into())]);
-    assert!(matches!(refused, Err(Error::Scene { path, .. }) if path == "changes"));
+    assert!(matches!(refused, Err(Error::Argument { path, .. }) if path == "changes"));
 }
 
 #[test]
@@ -591,7 +592,8 @@ fn what_cannot_be_changed_or_reached_is_refused_by_name() {
     ];
     for (path, value, field) in changes {
         let refused = simulation.change(&[(path, value)]);
-        let Err(Error::Scene { path: named, .. }) = refused else {
+        let Err(Error::Scene { path: named, .. } | Error::Argument { path: named, .. }) = refused
+        else {
             panic!("{path}: {refused:?}")
         };
         assert_eq!(named, field);
@@ -599,7 +601,7 @@ fn what_cannot_be_changed_or_reached_is_refused_by_name() {
     for time in [0.5e-3, 2.0 * DURATION, f64::NAN] {
         let refused = simulation.advance_to(time);
         assert!(
-            matches!(&refused, Err(Error::Scene { path, .. }) if path == "t"),
+            matches!(&refused, Err(Error::Argument { path, .. }) if path == "t"),
             "{refused:?}"
         );
     }

@@ -10,8 +10,8 @@ use ballrace::dynamics::rhs;
 use ballrace::inspect;
 use ballrace::integrate::System;
 use ballrace::scene::{
-    Defect, Drive, Friction, Mount, NormalLaw, Profile, Scene, Slices, Surface, TimeFunction,
-    Waviness, Width, WidthProfile, presets,
+    Defect, Drive, Friction, Mount, NormalLaw, Patch, Profile, Scene, Slices, Surface,
+    TimeFunction, Waviness, Width, WidthProfile, presets,
 };
 use ballrace::{Bandwidth, Model, Race, Reduction, Run, Start, simulate, start};
 use common::{Noise, effects, oiled, patch};
@@ -35,12 +35,10 @@ fn mirrored() -> Scene {
 }
 
 fn spall(on: Surface, axial_offset: f64) -> Defect {
-    let mut defect = Defect::new(
+    let mut defect = Defect::of(
+        Patch::of_width(0.8e-3).length(1.5e-3).edge_radius(0.3e-3),
         on,
         if on == Surface::Ball { PI } else { -FRAC_PI_2 },
-        1.5e-3,
-        0.8e-3,
-        0.3e-3,
     )
     .at_offset(axial_offset);
     defect.ball = (on == Surface::Ball).then_some(0);
@@ -88,7 +86,9 @@ fn difference(scene: &Scene) -> f64 {
         dynamics.expand_rates(t, &y, &own, &mut rates);
         rhs(&model, t, &full, &mut wanted);
         let loads: f64 = (0..model.body_count() - 2)
-            .flat_map(|j| Race::BOTH.map(|race| inspect::contact(&model, &full, j, race).load))
+            .flat_map(|j| {
+                Race::BOTH.map(|race| inspect::contact(&model, &full, j, race).unwrap().load)
+            })
             .sum();
         let forces = contributions(&model, t, &full);
         for i in 0..half {

@@ -6,7 +6,8 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use ballrace::compile;
 use ballrace::scene::{
-    Approximations, Component, Drive, Friction, Mount, Probe, Profile, Scene, TimeFunction, presets,
+    Approximations, Component, Drive, Friction, MotionProbe, Mount, Probe, Profile, Scene,
+    TimeFunction, presets,
 };
 use ballrace::{Bandwidth, Run, Signals, Start, start};
 use common::{rms, run};
@@ -111,10 +112,7 @@ fn bearings_that_rattle_begin_as_they_go_on() {
 fn the_phase_is_the_scenes() {
     let mut scene = presets::deep_groove_6205(500.0, 300.0, 1800.0);
     scene.rows[0].start_angle = 0.3;
-    let motion = |body: &str| Probe::Motion {
-        body: body.to_owned(),
-        components: None,
-    };
+    let motion = |body: &str| Probe::motion(body);
     scene.probes = [
         ("ball".to_owned(), motion("row0.ball2")),
         ("inner".to_owned(), motion("inner")),
@@ -318,10 +316,7 @@ fn threads_do_not_change_the_bits() {
     let mut scene = presets::wheel_bearing(3000.0);
     scene.probes = [(
         "outer".to_owned(),
-        Probe::Motion {
-            body: "outer".to_owned(),
-            components: Some(vec![Component::Ay]),
-        },
+        MotionProbe::of("outer").components([Component::Ay]).into(),
     )]
     .into();
     let on = |threads: usize| {

@@ -8,8 +8,8 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use ballrace::compile;
 use ballrace::scene::{
-    Approximations, AxialOffset, Defect, Drive, Friction, Profile, RingName, Scene, Surface,
-    TimeFunction, Width, WidthProfile, presets,
+    Approximations, AxialOffset, Cap, Defect, Drive, Friction, Patch, Profile, RingName, Scene,
+    Surface, TimeFunction, Width, WidthProfile, presets,
 };
 use ballrace::{
     BallEquilibrium, Error, Placed, Run, Signals, Start, Touched, Warning, equilibrium, explain,
@@ -37,7 +37,11 @@ fn angular_7208() -> Scene {
 }
 
 fn spall(on: Surface) -> Defect {
-    let mut defect = Defect::new(on, -FRAC_PI_2 - 0.2, 2e-3, 1e-3, 0.3e-3);
+    let mut defect = Defect::of(
+        Patch::of_width(1e-3).length(2e-3).edge_radius(0.3e-3),
+        on,
+        -FRAC_PI_2 - 0.2,
+    );
     defect.ball = (on == Surface::Ball).then_some(0);
     defect
 }
@@ -310,7 +314,11 @@ fn passes_are_those_of_the_kinematics() {
 /// changes no acceleration.
 #[test]
 fn a_cap_is_reported_as_any_defect() {
-    let pit = Defect::cap(-FRAC_PI_2 - 0.2, 1e-3, 0.3e-3);
+    let pit = Defect::of(
+        Cap::of_width(1e-3).edge_radius(0.3e-3),
+        Surface::Ball,
+        -FRAC_PI_2 - 0.2,
+    );
     let met = with(angular_7208(), pit.clone());
     let explanation = explain(&met).unwrap();
     assert_eq!(
@@ -320,7 +328,13 @@ fn a_cap_is_reported_as_any_defect() {
         ),
         (30, 15)
     );
-    let healthy = with(angular_7208(), at(0.0, Defect::cap(0.0, 0.0, 0.3e-3)));
+    let healthy = with(
+        angular_7208(),
+        at(
+            0.0,
+            Defect::of(Cap::of_width(0.0).edge_radius(0.3e-3), Surface::Ball, 0.0),
+        ),
+    );
     let missed = with(angular_7208(), at(0.0, pit));
     let signals = [&met, &healthy, &missed].map(|scene| {
         run(

@@ -6,8 +6,8 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use ballrace::dynamics::Dynamics;
 use ballrace::integrate::System;
 use ballrace::scene::{
-    Component, Defect, Drive, Friction, Load, Mount, Probe, Profile, RingName, Spin, Support,
-    Surface, Texture, TimeFunction, Unbalance, Waviness, presets,
+    Component, Defect, Drive, Friction, Load, MotionProbe, Mount, Patch, Probe, Profile, RingName,
+    Spin, Support, Surface, Texture, TimeFunction, Unbalance, Waviness, presets,
 };
 use ballrace::{
     Bandwidth, BodyId, Dof, Model, Run, Scene, Signals, Simulation, Start, compile, start,
@@ -29,7 +29,12 @@ fn damaged() -> Scene {
         ("inner", Surface::InnerRace, 0.3),
         ("ball", Surface::Ball, 0.1),
     ] {
-        let defect = Defect::new(on, angle, 1.5e-3, 1.5e-3, 0.3e-3).at_offset(0.0);
+        let defect = Defect::of(
+            Patch::of_width(1.5e-3).length(1.5e-3).edge_radius(0.3e-3),
+            on,
+            angle,
+        )
+        .at_offset(0.0);
         let defect = if on == Surface::Ball {
             defect.on_ball(0)
         } else {
@@ -264,13 +269,17 @@ fn balls_roll_between_two_rings_that_turn() {
 fn a_run_begins_where_its_scene_says() {
     let mut scene = hub(300.0, 0.0);
     let angle = scene.rows[0].start_angle + 0.1;
-    let spall = Defect::new(Surface::OuterRace, angle, 1e-3, 2e-3, 0.3e-3);
+    let spall = Defect::of(
+        Patch::of_width(2e-3).length(1e-3).edge_radius(0.3e-3),
+        Surface::OuterRace,
+        angle,
+    );
     scene.defects.insert("spall".into(), spall.at_offset(0.0));
     scene.probes = [("outer", "outer"), ("ball", "row0.ball0")]
         .map(|(name, body)| {
-            let components = Some(vec![Component::X, Component::Y, Component::Theta]);
-            let body = body.to_owned();
-            (name.to_owned(), Probe::Motion { body, components })
+            let probe =
+                MotionProbe::of(body).components([Component::X, Component::Y, Component::Theta]);
+            (name.to_owned(), probe.into())
         })
         .into();
     let out = run(
@@ -318,16 +327,11 @@ fn courses_follow_both_rings() {
     scene.approximations.rolling = true;
     scene.outer_speed = Some(ramp(50.0, -100.0));
     scene.drive = Drive::Speed(ramp(0.0, 200.0));
-    let body = "row0.ball3".to_owned();
-    let components = Some(vec![Component::X, Component::Y]);
-    scene
-        .probes
-        .insert("ball".into(), Probe::Motion { body, components });
-    let body = "outer".to_owned();
-    let components = Some(vec![Component::Theta, Component::Omega, Component::Alpha]);
-    scene
-        .probes
-        .insert("ring".into(), Probe::Motion { body, components });
+    let ball = MotionProbe::of("row0.ball3").components([Component::X, Component::Y]);
+    scene.probes.insert("ball".into(), ball.into());
+    let ring = [Component::Theta, Component::Omega, Component::Alpha];
+    let ring = MotionProbe::of("outer").components(ring);
+    scene.probes.insert("ring".into(), ring.into());
     let out = run(
         &scene,
         &Run {
@@ -368,9 +372,7 @@ fn films_follow_the_relative_speed() {
         scene.outer_speed = outer;
         scene.lubricant.as_mut().unwrap().reference_speed = Some(150.0);
         scene.lubricant.as_mut().unwrap().reference_load = Some(300.0);
-        scene
-            .probes
-            .insert("oil".into(), Probe::Lubrication { row: 0 });
+        scene.probes.insert("oil".into(), Probe::lubrication(0));
         let out = run(
             &scene,
             &Run {
@@ -505,11 +507,14 @@ fn a_planet_under_a_load_that_turns() {
                 .loads
                 .insert(name, Load::new(RingName::Inner, direction, force));
         }
-        let spall = Defect::new(Surface::OuterRace, -FRAC_PI_2, 1e-3, 2e-3, 0.3e-3);
+        let spall = Defect::of(
+            Patch::of_width(2e-3).length(1e-3).edge_radius(0.3e-3),
+            Surface::OuterRace,
+            -FRAC_PI_2,
+        );
         scene.defects.insert("spall".into(), spall.at_offset(0.0));
-        let components = Some(vec![Component::Ax, Component::Ay]);
-        let body = "outer".to_owned();
-        scene.probes = [("outer".to_owned(), Probe::Motion { body, components })].into();
+        let probe = MotionProbe::of("outer").components([Component::Ax, Component::Ay]);
+        scene.probes = [("outer".to_owned(), probe.into())].into();
         // After 10 ms.
         let from = 1000;
         let out = run(

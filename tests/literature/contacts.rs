@@ -23,7 +23,7 @@ use ballrace::contact::{
     BallSide, ContactForce, Elastic, Law, Motion, Pair, Sink, SurfaceDefect, Torus, Waves,
     ZoneSlices,
 };
-use ballrace::scene::{Defect, Material, Surface};
+use ballrace::scene::{Defect, Material, Patch, Surface};
 use common::meets;
 
 /// K in N/mm^1.5.
@@ -246,16 +246,14 @@ fn sink_over_a_sharp_slot() {
     for (sigma, pitch) in [(1.0, 60e-3), (-1.0, 60e-3), (1.0, 50.0), (-1.0, 50.0)] {
         let healthy = iso_pair(sigma, d, pitch, 0.53);
         let race = healthy.race.radius(0.0).unwrap();
-        let slot = Defect::new(
+        let slot = Defect::of(
+            Patch::of_width(w).length(d).edge_radius(1e-9),
             if sigma > 0.0 {
                 Surface::OuterRace
             } else {
                 Surface::InnerRace
             },
             0.0,
-            d,
-            w,
-            1e-9,
         )
         .at_offset(0.0);
         let open = Pair {

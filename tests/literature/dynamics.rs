@@ -16,17 +16,14 @@ use std::f64::consts::{PI, TAU};
 use ballrace::compile;
 use ballrace::contact::hertz::Hertz;
 use ballrace::scene::{
-    Component, Contact, ContactQuantity, Friction, Material, Mount, NormalLaw, Probe, Support,
-    presets,
+    Component, Contact, ContactQuantity, ContactsProbe, Friction, Material, MotionProbe, Mount,
+    NormalLaw, Probe, Support, presets,
 };
 use ballrace::{Bandwidth, Run, Start, start};
 use common::{meets, restitution_of, run};
 
 fn motion(body: &str, components: &[Component]) -> Probe {
-    Probe::Motion {
-        body: body.to_owned(),
-        components: Some(components.to_vec()),
-    }
+    MotionProbe::of(body).components(components.to_vec()).into()
 }
 
 /// Truth: printed orders of the shaft, to one unit of the last digit. They are read off the rolling start, and
@@ -136,16 +133,8 @@ fn orbit_of_loaded_balls_under_500_newtons() {
             )
         })
         .collect();
-    let quantities = Some(vec![ContactQuantity::Load]);
-    scene.probes.insert(
-        "c".to_owned(),
-        Probe::Contacts {
-            row: 0,
-            balls: None,
-            races: None,
-            quantities,
-        },
-    );
+    let loads = ContactsProbe::of_row(0).quantities([ContactQuantity::Load]);
+    scene.probes.insert("c".to_owned(), loads.into());
     let out = run(
         &scene,
         &Run {

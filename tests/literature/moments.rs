@@ -78,7 +78,7 @@ fn a_run_records_the_moments_of_its_state() {
         Some(damped),
         None,
     ]);
-    scene.probes = [("m".to_owned(), Probe::Moments {})].into();
+    scene.probes = [("m".to_owned(), Probe::moments())].into();
     let found = equilibrium(&scene).unwrap();
     let out = simulate(&scene, &short(1e-4)).unwrap();
     let columns = ["outer.x", "outer.y", "inner.x", "inner.y"];

@@ -7,7 +7,7 @@ use crate::common;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use ballrace::Run;
-use ballrace::scene::{ContactQuantity, Defect, Probe, Support, Surface, presets};
+use ballrace::scene::{ContactQuantity, ContactsProbe, Defect, Patch, Support, Surface, presets};
 use common::{meets, run};
 
 /// A ball of a Koyo 1205 (one row, no clearance, no cage) at the load line comes to a spall of a width \[m\] on a
@@ -40,22 +40,17 @@ fn time_to_impact(on: Surface, width: f64, shaft: f64, radial: f64) -> f64 {
     row.start_angle = -FRAC_PI_2 - if outer { lead } else { 0.0 };
     scene.outer_ring.support = Support::default();
     scene.cage = None;
-    let spall = Defect::new(
-        on,
-        // The inner race overtakes the ball.
+    let spall = Defect::of(
+        Patch::of_width(width).length(4e-3).edge_radius(10e-6),
+        on, // The inner race overtakes the ball.
         -FRAC_PI_2 - if outer { 0.0 } else { lead },
-        4e-3,
-        width,
-        10e-6,
     )
     .at_offset(0.0);
     scene.defects = [("spall".to_owned(), spall)].into();
-    let contacts = Probe::Contacts {
-        row: 0,
-        balls: Some(vec![0]),
-        races: None,
-        quantities: Some(vec![ContactQuantity::Load]),
-    };
+    let contacts = ContactsProbe::of_row(0)
+        .balls([0])
+        .quantities([ContactQuantity::Load])
+        .into();
     scene.probes = [("c".to_owned(), contacts)].into();
     let out = run(
         &scene,

@@ -11,8 +11,8 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use ballrace::contact::hertz::Hertz;
 use ballrace::scene::{
-    Defect, Load, Material, Mount, NormalLaw, RingName, Scene, Support, Surface, TimeFunction,
-    presets,
+    Defect, Load, Material, Mount, NormalLaw, Patch, RingName, Scene, Support, Surface,
+    TimeFunction, presets,
 };
 use ballrace::{Error, Stiffness, equilibrium, load_distribution, stiffness};
 use common::meets;
@@ -109,7 +109,12 @@ fn stiffness_is_the_slope_of_the_equilibrium() {
     wheel.cage = None;
     let mut spalled = presets::deep_groove_6205(500.0, 200.0, 1800.0);
     spalled.cage = None;
-    let spall = Defect::new(Surface::InnerRace, -FRAC_PI_2, 4e-3, 0.3e-3, 0.1e-3).at_offset(0.0);
+    let spall = Defect::of(
+        Patch::of_width(0.3e-3).length(4e-3).edge_radius(0.1e-3),
+        Surface::InnerRace,
+        -FRAC_PI_2,
+    )
+    .at_offset(0.0);
     spalled.defects.insert("spall".to_owned(), spall);
     let caged = presets::deep_groove_6205(500.0, 200.0, 1800.0);
     let fast = presets::deep_groove_6205(500.0, 200.0, 12_000.0);
@@ -195,5 +200,5 @@ fn a_pitch_shows_all_of_equal_balls() {
     assert_eq!(whole.turn.len(), 36);
     assert!(whole.equivalent[0].inner > one.equivalent[0].inner);
     let refused = load_distribution(&odd, 0).unwrap_err();
-    assert!(matches!(&refused, Error::Scene { path, .. } if path == "positions"));
+    assert!(matches!(&refused, Error::Argument { path, .. } if path == "positions"));
 }

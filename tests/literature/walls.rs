@@ -1,10 +1,10 @@
-//! Spalls between steep walls against a solver by boundary elements (model section 15.5): what a contact of 250 N loses at fixed approach, on
+//! Spalls between steep walls against a solver by boundary elements: what a contact of 250 N loses at fixed approach, on
 //! the outer race of a 6205, at distances from an edge and in the middle of slots. `--nocapture` shows every case.
 
 use crate::common::one_ball;
 
 use ballrace::inspect::contact;
-use ballrace::scene::{Damage, Defect, Scene, Surface, Value};
+use ballrace::scene::{Damage, Defect, Scene, SteepPatch, Surface, Value};
 use ballrace::{Error, Model, Race, Start, compile, start};
 
 /// The reference contact is pressed by 250 N at this interference \[m\]: both races give way.
@@ -15,18 +15,18 @@ const RADIUS: f64 = 23.49e-3;
 fn load(model: &Model, race: Race) -> f64 {
     let healthy = compile(&one_ball(SQUEEZE)).unwrap();
     let y = start(&healthy, &Start::Rolling).unwrap();
-    contact(model, &y, 0, race).load
+    contact(model, &y, 0, race).unwrap().load
 }
 
 /// A spall of a width \[m\] across the race whose nearer edge is so far beyond the contact's middle \[m\].
 fn spall(width: f64, inside: f64) -> Defect {
     let angle = (width / 2.0 - inside) / RADIUS;
-    let damage = Damage::SteepPatch {
-        length: 4e-3,
-        width,
-        floor: None,
-    };
-    Defect::of(damage, Surface::OuterRace, angle).at_offset(0.0)
+    Defect::of(
+        SteepPatch::of_width(width).length(4e-3),
+        Surface::OuterRace,
+        angle,
+    )
+    .at_offset(0.0)
 }
 
 fn with(defect: &Defect) -> Scene {
@@ -72,10 +72,10 @@ fn contacts_unload_before_steep_walls() {
 fn walls_are_numbers_once_placed() {
     let placed = compile(&with(&spall(0.4e-3, 0.2e-3))).unwrap();
     let damage = &placed.scene().defects["spall"].damage;
-    let Damage::Patch { edge_radius, .. } = damage else {
+    let Damage::Patch(patch) = damage else {
         panic!("{damage:?}");
     };
-    assert_eq!(*edge_radius, 7.94e-3 / 4.0);
+    assert_eq!(patch.edge_radius, 7.94e-3 / 4.0);
     let half = damage.width() - 0.4e-3;
     assert!((half / 0.1179e-3 - 1.0).abs() < 0.01, "{half}");
     let again = compile(placed.scene()).unwrap();

@@ -1,5 +1,5 @@
 """Analytic: velocities in the bands of ISO 15242-2, of signals with a known answer; the test of a bearing beside
-Wardle's quasi-static sums (model section 14.7)."""
+Wardle's quasi-static sums."""
 
 from __future__ import annotations
 

@@ -160,7 +160,7 @@ fn options_are_checked() {
             ControlFlow::Continue(())
         });
         match &found.unwrap()[0].result {
-            Err(Error::Scene { path, .. }) => path.clone(),
+            Err(Error::Argument { path, .. }) => path.clone(),
             other => panic!("{other:?}"),
         }
     };
@@ -191,7 +191,7 @@ fn options_are_checked() {
         &options(),
         &mut |_| ControlFlow::Continue(()),
     );
-    assert!(matches!(many, Err(Error::Scene { path, .. }) if path == "threads"));
+    assert!(matches!(many, Err(Error::Argument { path, .. }) if path == "threads"));
 }
 
 /// A stop ends what runs, pulls no further cases, and reports only what has finished: were the long cases not stopped, this would
@@ -244,7 +244,12 @@ fn a_budget_of_steps_is_an_outcome() {
     let found = campaign(cases, 2, &options, &mut |_| ControlFlow::Continue(())).unwrap();
     assert_eq!(bits(&found[0]), bits(&found[3]));
     match (&found[1].result, &found[2].result) {
-        (Err(Error::Budget { time, name, limit }), Err(again)) => {
+        (
+            Err(Error::Budget {
+                time, name, limit, ..
+            }),
+            Err(again),
+        ) => {
             assert!(*time > 0.0 && *time < 2e-3);
             assert_eq!((*name, *limit), ("max_steps", 30.0));
             assert_eq!(found[1].result.as_ref().err(), Some(again));

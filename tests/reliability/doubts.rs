@@ -7,9 +7,9 @@ use crate::common;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use ballrace::scene::{
-    Cage, CageRing, Component, Contact, ContactQuantity, Defect, Doubt, Drive, Friction, Material,
-    Moment, Mount, NormalLaw, Probe, Ring, RingName, Scene, Spin, Support, Surface, TableForce,
-    Texture, Unbalance, presets,
+    Cage, CageRing, Cap, Component, Contact, ContactQuantity, ContactsProbe, Defect, Doubt, Drive,
+    Friction, Material, Moment, MotionProbe, Mount, NormalLaw, Patch, Pit, Probe, Ring, RingName,
+    Scene, Spin, Support, Surface, TableForce, Texture, Unbalance, presets,
 };
 use ballrace::{Equilibrium, Warning, equilibrium, explain, load_distribution};
 use common::{Noise, run, short};
@@ -131,9 +131,10 @@ fn without_probes_what_can_move_is_recorded() {
 }
 
 fn motion(body: &str, components: Option<&[Component]>) -> Probe {
-    Probe::Motion {
-        body: body.to_owned(),
-        components: components.map(<[Component]>::to_vec),
+    let all = MotionProbe::of(body);
+    match components {
+        Some(components) => all.components(components).into(),
+        None => all.into(),
     }
 }
 
@@ -161,7 +162,7 @@ fn columns_that_cannot_change_are_doubted() {
     );
     assert_eq!(doubts_of(motion("inner", None)), "");
     assert_eq!(doubts_of(motion("row0.ball8", None)), "");
-    assert!(doubts_of(Probe::Cage { row: 0 }).contains("no cage"));
+    assert!(doubts_of(Probe::cage(0)).contains("no cage"));
 
     // Along x and y it moves, along z it is held; a given speed turns the inner ring.
     let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
@@ -529,10 +530,21 @@ fn machines_drawn_at_random_raise_no_doubt() {
         if on == Surface::Ball && angle > 0.0 {
             scene.spin = Some(Spin::Free);
         }
-        let mut defect = Defect::new(on, noise.between(-PI, PI), width, width, 0.1 * width);
+        let mut defect = Defect::of(
+            Patch::of_width(width)
+                .length(width)
+                .edge_radius(0.1 * width),
+            on,
+            noise.between(-PI, PI),
+        );
         defect.ball = (on == Surface::Ball).then_some(0);
         if scene.spin.is_some() {
-            defect = Defect::cap(0.0, width, 0.1 * width).on_ball(0);
+            defect = Defect::of(
+                Cap::of_width(width).edge_radius(0.1 * width),
+                Surface::Ball,
+                0.0,
+            )
+            .on_ball(0);
         }
         scene.defects.insert("a".to_owned(), defect.at_offset(0.0));
         if case % 4 == 0 {
@@ -592,7 +604,7 @@ fn a_table_of_forces_on_a_held_ring_is_doubted() {
     assert!(!is_doubted([0.0, 1.0, 0.0]) && !is_doubted([1.0, 0.1, 0.0]));
 }
 
-/// Slots narrower than 1.3 contacts, which fault circles take for less than they are (model section 15.5); pits are not doubted.
+/// Slots narrower than 1.3 contacts, which fault circles take for less than they are; pits are not doubted.
 #[test]
 fn defects_narrower_than_their_contact_are_doubted() {
     let is_doubted = |defect: Defect| {
@@ -611,12 +623,18 @@ fn defects_narrower_than_their_contact_are_doubted() {
         assert_eq!(found.doubts.iter().any(is_of_width), of_run);
         of_run
     };
-    let slot = |width: f64| Defect::new(Surface::OuterRace, -FRAC_PI_2, 2e-3, width, 0.3e-3);
+    let slot = |width: f64| {
+        Defect::of(
+            Patch::of_width(width).length(2e-3).edge_radius(0.3e-3),
+            Surface::OuterRace,
+            -FRAC_PI_2,
+        )
+    };
     assert!(is_doubted(slot(0.178e-3)) && !is_doubted(slot(0.5e-3)));
-    assert!(!is_doubted(Defect::pit(
+    assert!(!is_doubted(Defect::of(
+        Pit::of_width(0.178e-3),
         Surface::OuterRace,
-        -FRAC_PI_2,
-        0.178e-3
+        -FRAC_PI_2
     )));
 }
 
@@ -652,12 +670,10 @@ fn pressures_belong_to_the_loads() {
         // A run begins there; a contact probe reads the same load.
         scene.probes = [(
             "c".to_owned(),
-            Probe::Contacts {
-                row: 0,
-                balls: Some(vec![0]),
-                races: None,
-                quantities: Some(vec![ContactQuantity::Load]),
-            },
+            ContactsProbe::of_row(0)
+                .balls([0])
+                .quantities([ContactQuantity::Load])
+                .into(),
         )]
         .into();
         let out = run(&scene, &short(1e-4));

@@ -7,7 +7,7 @@ use std::process::Command;
 
 use ballrace::InstructionSet;
 use ballrace::scene::{
-    Approximations, Defect, Friction, Method, NormalLaw, Scene, Surface, presets,
+    Approximations, Defect, Friction, Method, NormalLaw, Patch, Scene, Surface, presets,
 };
 use ballrace::{Run, Start, Warning};
 use common::{apart, run, soon_over_the_spall};
@@ -15,16 +15,14 @@ use common::{apart, run, soon_over_the_spall};
 /// A spall of 1.5 mm, as wide as half a millimetre, in the middle of a surface; on the outer race ahead of the ball that
 /// stands at −90° by 2°, on the others under it.
 fn spall(on: Surface) -> Defect {
-    let mut defect = Defect::new(
+    let mut defect = Defect::of(
+        Patch::of_width(0.5e-3).length(1.5e-3).edge_radius(0.2e-3),
         on,
         match on {
             Surface::OuterRace => -FRAC_PI_2 + 2_f64.to_radians(),
             Surface::InnerRace => -FRAC_PI_2 - 2_f64.to_radians(),
             _ => PI,
         },
-        1.5e-3,
-        0.5e-3,
-        0.2e-3,
     )
     .at_offset(0.0);
     defect.ball = (on == Surface::Ball).then_some(0);

@@ -1,8 +1,8 @@
-//! What pits are refused, by the field to change (model section 15.4).
+//! What pits are refused, by the field to change.
 
 use std::f64::consts::FRAC_PI_2;
 
-use ballrace::scene::{Defect, GothicArch, Scene, Surface, Value, presets};
+use ballrace::scene::{Defect, GothicArch, Patch, Pit, Scene, Surface, Value, presets};
 use ballrace::{Error, compile, explain};
 
 use serde_json::json;
@@ -23,12 +23,12 @@ fn with_pit() -> Scene {
 
 /// A pit of row 0, of ball 0 where it is a ball's, which lies at an angle.
 fn pit(on: Surface, angle: f64, diameter: f64) -> Defect {
-    let mut pit = Defect::pit(on, angle, diameter);
+    let mut pit = Defect::of(Pit::of_width(diameter), on, angle);
     pit.ball = (on == Surface::Ball).then_some(0);
     pit
 }
 
-/// Model section 15.4: one error that names the field.
+/// Refusals: one error that names the field.
 #[test]
 fn impossible_pits_are_refused() {
     let refused = |change: &dyn Fn(&mut Scene)| {
@@ -83,8 +83,13 @@ fn a_pit_that_overlaps_a_defect_is_refused() {
         })
     };
     // Outer race: 23.5 mm, so 1 mm is 0.0426 rad.
-    let spall =
-        |angle: f64| Defect::new(Surface::OuterRace, angle - FRAC_PI_2, 1e-3, 0.7e-3, 0.2e-3);
+    let spall = |angle: f64| {
+        Defect::of(
+            Patch::of_width(0.7e-3).length(1e-3).edge_radius(0.2e-3),
+            Surface::OuterRace,
+            angle - FRAC_PI_2,
+        )
+    };
     for over in [
         spall(0.0),
         spall(0.018),
@@ -143,7 +148,7 @@ fn more_than_four_pits_at_once_are_refused() {
     }
 }
 
-/// Model section 15.1: a circle wholly in its contact loses (4/3)(c³/E*) p²/δ whatever the load, 3.49 N for 0.178 mm on the outer race of a
+/// Analytic: a circle wholly in its contact loses (4/3)(c³/E*) p²/δ whatever the load, 3.49 N for 0.178 mm on the outer race of a
 /// 6205; the fields belong together.
 #[test]
 fn an_explanation_has_what_a_pit_takes() {

@@ -4,12 +4,13 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
 use ballrace::scene::{
-    Cage, Defect, Drive, Friction, Load, Mount, Row, Scene, Support, Surface, Unbalance, Waviness,
+    Cage, ContactsProbe, Defect, Drive, Friction, Load, Mount, Patch, Row, Scene, SlicesProbe,
+    Support, Surface, Unbalance, Waviness,
 };
 use ballrace::scene::{Probe, RingName};
 use ballrace::{
-    Case, Error, FeatureOptions, Race, Run, Start, campaign, compile, dynamics, equilibrium,
-    explain, inspect, load_distribution, simulate, start, stiffness,
+    Block, Case, Error, FeatureOptions, Race, Run, Start, campaign, compile, dynamics, equilibrium,
+    explain, inspect, load_distribution, simulate, simulate_into, start, stiffness,
 };
 
 /// Every part of a scene, by constructors and fields.
@@ -40,12 +41,13 @@ fn bearing() -> Scene {
     scene.loads = BTreeMap::from([("down".to_owned(), down), ("axial".to_owned(), axial)]);
     let unbalance = Unbalance::new(RingName::Inner, 1e-5, 0.0);
     scene.unbalances.insert("shaft".to_owned(), unbalance);
-    let spall = Defect::new(Surface::OuterRace, -1.4, 1e-3, 0.5e-3, 0.2e-3);
+    let spall = Defect::of(
+        Patch::of_width(0.5e-3).length(1e-3).edge_radius(0.2e-3),
+        Surface::OuterRace,
+        -1.4,
+    );
     scene.defects.insert("spall".to_owned(), spall);
-    let motion = Probe::Motion {
-        body: "outer".to_owned(),
-        components: None,
-    };
+    let motion = Probe::motion("outer");
     scene.probes.insert("outer".to_owned(), motion);
     scene
 }
@@ -75,7 +77,7 @@ fn contacts_are_read_from_a_state() {
     let model = compile(&scene).unwrap();
     let y = start(&model, &Start::Equilibrium).unwrap();
     let axial: f64 = (0..8)
-        .map(|ball| inspect::contact(&model, &y, ball, Race::Outer))
+        .map(|ball| inspect::contact(&model, &y, ball, Race::Outer).unwrap())
         .filter(|contact| contact.load > 0.0)
         .map(|contact| contact.load * contact.angle.sin())
         .sum();
@@ -133,11 +135,11 @@ fn results_are_serialised() {
 
     let model = compile(&bearing()).unwrap();
     let y = start(&model, &Start::Equilibrium).unwrap();
-    let energy = inspect::energy(&model, &y);
+    let energy = inspect::energy(&model, &y).unwrap();
     let written = serde_json::to_value(energy).unwrap();
     assert_eq!(written["contact"], energy.contact);
     // The ball on top bears nothing.
-    let free = inspect::contact(&model, &y, 2, Race::Inner);
+    let free = inspect::contact(&model, &y, 2, Race::Inner).unwrap();
     assert_eq!(free.load, 0.0);
     assert!(serde_json::to_value(free).unwrap()["angle"].is_null());
 
@@ -169,14 +171,79 @@ fn results_are_read_as_they_were_written() {
     fn again<T: serde::Serialize + serde::de::DeserializeOwned>(of: &T) -> T {
         serde_json::from_str(&serde_json::to_string(of).unwrap()).unwrap()
     }
-    let out = simulate(&bearing(), &short()).unwrap();
-    assert_eq!(again(&out.stats), out.stats);
+    /// Numbers that are none are not equal, and are written alike.
+    fn keeps<T: serde::Serialize + serde::de::DeserializeOwned>(of: &T) {
+        let written = serde_json::to_string(of).unwrap();
+        assert_eq!(serde_json::to_string(&again(of)).unwrap(), written);
+    }
+    let mut scene = bearing();
+    // Contacts without load have no angle.
+    let contacts = ContactsProbe::of_row(0);
+    scene.probes.insert("c".to_owned(), contacts.into());
+    let slices = SlicesProbe::at([0.5e-3]);
+    scene.probes.insert("s".to_owned(), slices.into());
+    let out = simulate(&scene, &short()).unwrap();
+    let without = |name: &str| out.get(name).unwrap().iter().any(|x| x.is_nan());
+    assert!(without("c.ball2.inner.angle") && !out.slices.is_empty());
+    keeps(&out);
+    let same = again(&out);
+    assert_eq!((&same.scene, &same.stats), (&out.scene, &out.stats));
+    assert_eq!(same.get("outer.ay"), out.get("outer.ay"));
+    assert!(same.get("c.ball2.inner.angle").unwrap()[0].is_nan());
+    assert_eq!(same.provenance, out.provenance);
+    let mut taken = None;
+    let mut sink = |block: Block| {
+        taken = Some(block);
+        ControlFlow::Continue(())
+    };
+    simulate_into(&scene, &short(), &mut sink, &mut |_| {
+        ControlFlow::Continue(())
+    })
+    .unwrap();
+    keeps(&taken.unwrap());
     let features = ballrace::features(&out, &FeatureOptions::default()).unwrap();
     assert_eq!(again(&features), features);
+
+    let found = equilibrium(&bearing()).unwrap();
+    assert_eq!(again(&found), found);
+    let found = stiffness(&bearing()).unwrap();
+    assert_eq!(again(&found), found);
+    let found = load_distribution(&bearing(), 2).unwrap();
+    assert_eq!(again(&found), found);
+    let found = ballrace::dynamic_coefficients(&bearing(), 1).unwrap();
+    assert_eq!(again(&found), found);
+    let found = ballrace::axis_held(&bearing()).unwrap();
+    assert_eq!(again(&found), found);
+    let case = Case::new(bearing(), short());
+    assert_eq!(again(&case), case);
+
     let model = compile(&bearing()).unwrap();
     let state = start(&model, &Start::Equilibrium).unwrap();
-    let contact = inspect::contact(&model, &state, 0, Race::Outer);
-    assert_eq!(again(&contact), contact);
+    for ball in 0..8 {
+        keeps(&inspect::contact(&model, &state, ball, Race::Inner).unwrap());
+    }
+    keeps(&inspect::lubrication(&model, &state, 0).unwrap());
+    keeps(&inspect::energy(&model, &state).unwrap());
     let rates = ballrace::fault_frequencies(&bearing(), 0).unwrap();
     assert_eq!(again(&rates), rates);
+}
+
+/// Options are written with what they have in later versions too.
+#[test]
+fn options_are_written_with_the_rest_by_default() {
+    let run = Run {
+        duration: 1e-3,
+        ..Default::default()
+    };
+    let options = FeatureOptions {
+        skip: 0.5e-3,
+        ..Default::default()
+    };
+    let out = simulate(&bearing(), &run).unwrap();
+    assert!(!ballrace::features(&out, &options).unwrap().is_empty());
+    let steps = ballrace::integrate::Options {
+        max_step: 1e-5,
+        ..Default::default()
+    };
+    assert!(steps.max_step < ballrace::integrate::Options::default().max_step);
 }

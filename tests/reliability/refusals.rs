@@ -1,8 +1,8 @@
 //! What cannot be computed is refused by an error that names it: no call panics for a value that a program can give it.
 
 use ballrace::scene::{
-    Drive, Load, Probe, Profile, RaceProfile, RingName, Scene, TableForce, TimeFunction, Width,
-    WidthProfile, presets,
+    ContactsProbe, Drive, Load, Probe, Profile, RaceProfile, RingName, Scene, SlicesProbe,
+    TableForce, TimeFunction, Width, WidthProfile, presets,
 };
 use ballrace::{
     Error, FeatureOptions, Run, equilibrium, explain, feature_columns, features, load_distribution,
@@ -34,27 +34,19 @@ fn probe(probe: Probe) -> Change {
 }
 
 fn probes_of_absent_rows() -> Vec<(&'static str, Change)> {
-    let contacts = |row, balls: Option<Vec<usize>>| Probe::Contacts {
-        row,
-        balls,
-        races: None,
-        quantities: None,
-    };
-    let slices = |row| Probe::Slices {
-        row,
-        balls: None,
-        races: None,
-        times: vec![0.0],
-    };
+    let slices = |row| SlicesProbe::at([0.0]).in_row(row).into();
     let mut cases = Vec::new();
     for row in [2, usize::MAX] {
-        cases.push(("probes.p.cage.row", probe(Probe::Cage { row })));
-        let oil = Probe::Lubrication { row };
+        cases.push(("probes.p.cage.row", probe(Probe::cage(row))));
+        let oil = Probe::lubrication(row);
         cases.push(("probes.p.lubrication.row", probe(oil)));
-        cases.push(("probes.p.contacts.row", probe(contacts(row, None))));
+        cases.push((
+            "probes.p.contacts.row",
+            probe(ContactsProbe::of_row(row).into()),
+        ));
         cases.push(("probes.p.slices.row", probe(slices(row))));
     }
-    let balls = probe(contacts(0, Some(vec![usize::MAX])));
+    let balls = probe(ContactsProbe::of_row(0).balls([usize::MAX]).into());
     cases.push(("probes.p.contacts.balls", balls));
     cases
 }
@@ -155,7 +147,8 @@ fn tables_without_a_value_are_no_numbers() {
 #[test]
 fn signals_and_rates_are_refused() {
     let refused = |field: &str, found: Result<_, Error>| match found {
-        Err(Error::Scene { path, .. }) => assert_eq!(path, field),
+        Err(Error::Argument { path, .. }) => assert_eq!(path, field),
+        Err(Error::Scene { path, .. }) if field == "rows" => assert_eq!(path, field),
         other => panic!("{field}: {other:?}"),
     };
     let options = FeatureOptions::default();

@@ -168,7 +168,7 @@ fn energies(model: &Model, h: f64, steps: usize, verlet: bool, y0: &[f64]) -> Ve
             for i in 0..half {
                 y[half + i] += 0.5 * h * dy[half + i];
             }
-            energies.push(inspect::energy(model, &y).total());
+            energies.push(inspect::energy(model, &y).unwrap().total());
         }
     } else {
         let options = Options {
@@ -177,7 +177,7 @@ fn energies(model: &Model, h: f64, steps: usize, verlet: bool, y0: &[f64]) -> Ve
         };
         let tolerance = Tolerance::uniform(y0.len(), 0.0, 1.0).unwrap();
         let mut watch = |_: &mut Dynamics<'_>, step: &DenseStep<'_>, _: &_| {
-            energies.push(inspect::energy(model, step.y1()).total());
+            energies.push(inspect::energy(model, step.y1()).unwrap().total());
             ControlFlow::Continue(())
         };
         let span = (0.0, steps as f64 * h);
@@ -214,7 +214,7 @@ fn energy_drifts_less_than_damping_takes() {
     };
     let (model, y0) = swing(&scene);
     // Kinetic energy at the start measures what there is to lose.
-    let whole = inspect::energy(&model, &y0).kinetic;
+    let whole = inspect::energy(&model, &y0).unwrap().kinetic;
     // Steps of 1/(n ω): n steps to a radian, 6.28 n to a period.
     let drift = |n: u32, verlet: bool| {
         let h = 1.0 / (f64::from(n) * frequency);
@@ -293,6 +293,7 @@ fn a_torn_contact_does_not_pull_and_is_counted() {
             let mut dy = y.clone();
             dynamics.rhs(0.0, &y, &mut dy);
             let outer: f64 = inspect::slice_forces(&model, &y, 0, Race::Outer)
+                .unwrap()
                 .iter()
                 .map(|slice| slice.force)
                 .sum();

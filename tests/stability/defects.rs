@@ -8,7 +8,8 @@ use std::f64::consts::FRAC_PI_2;
 use ballrace::compile;
 use ballrace::inspect;
 use ballrace::scene::{
-    ContactQuantity, Defect, Drive, Friction, Probe, RingName, Scene, Slices, Surface, presets,
+    ContactQuantity, ContactsProbe, Defect, Drive, Friction, Patch, RingName, Scene, Slices,
+    SlicesProbe, Surface, presets,
 };
 use ballrace::{Race, Run, Signals, Start, start};
 use common::{apart, patch, rms, run, short, soon_over_the_spall};
@@ -154,7 +155,9 @@ fn a_defect_at_the_end_of_the_zone_does_not_jump_on_fitted_nodes() {
                 // The zone of the loaded ball lies between +0.3 and +3.1 mm; the defect comes in from above.
                 scene.defects.get_mut("spall").unwrap().axial_offset =
                     (4.1e-3 - 0.05e-3 * f64::from(i)).into();
-                inspect::contact(&compile(&scene).unwrap(), &y, 0, Race::Outer).load
+                inspect::contact(&compile(&scene).unwrap(), &y, 0, Race::Outer)
+                    .unwrap()
+                    .load
             })
             .collect();
         let bends = forces.windows(3).map(|f| (f[0] - 2.0 * f[1] + f[2]).abs());
@@ -206,12 +209,10 @@ fn a_defect_under_an_unloaded_ball_is_not_felt() {
     scene.rows[0].start_angle = FRAC_PI_2 - 0.05;
     scene.probes.insert(
         "loads".to_owned(),
-        Probe::Contacts {
-            row: 0,
-            balls: Some(vec![0]),
-            races: None,
-            quantities: Some(vec![ContactQuantity::Load]),
-        },
+        ContactsProbe::of_row(0)
+            .balls([0])
+            .quantities([ContactQuantity::Load])
+            .into(),
     );
     let truth = run(&scene, &short(1.5e-3));
     let first = |race: &str| truth.get(&format!("loads.ball0.{race}.load")).unwrap()[0];
@@ -225,7 +226,12 @@ fn a_defect_under_an_unloaded_ball_is_not_felt() {
         let mut faulted = scene.clone();
         faulted.defects.insert(
             "above".to_owned(),
-            Defect::new(on, FRAC_PI_2, 1e-3, 0.5e-3, 0.2e-3).at_offset(0.0),
+            Defect::of(
+                Patch::of_width(0.5e-3).length(1e-3).edge_radius(0.2e-3),
+                on,
+                FRAC_PI_2,
+            )
+            .at_offset(0.0),
         );
         let out = run(&faulted, &short(1.5e-3));
         let difference: Vec<f64> = ay(&out)
@@ -258,12 +264,7 @@ fn at_minus_3_kilonewtons_contact_in_the_faulty_region_is_unstable() {
         let times: Vec<f64> = (0..count).map(|i| 4e-3 * f64::from(i) / f64::from(count)).collect();
         scene.probes.insert(
             "slices".to_owned(),
-            Probe::Slices {
-                row: 0,
-                balls: None,
-                races: Some(vec![RingName::Outer]),
-                times: times.clone(),
-            },
+            SlicesProbe::at(times.clone()).races([RingName::Outer]).into(),
         );
         let out = run(&scene, &short(4e-3));
         let force = |time: f64, ball: Option<usize>, region: bool| -> f64 {

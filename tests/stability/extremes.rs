@@ -49,7 +49,7 @@ fn from_no_speed_to_30_000_rpm() {
         let model = compile(&scene).unwrap();
         let y = start(&model, &Start::Equilibrium).unwrap();
         let upper = (0..9)
-            .map(|j| inspect::contact(&model, &y, j, Race::Outer).load)
+            .map(|j| inspect::contact(&model, &y, j, Race::Outer).unwrap().load)
             .fold(f64::INFINITY, f64::min);
         let orbit = model.rolling_speeds(0).0;
         let mass = 7850.0 * PI * 7.94e-3_f64.powi(3) / 6.0;
@@ -174,7 +174,7 @@ fn nan_infinite_and_absurd_input_is_refused_by_name() {
                 },
             ),
         ] {
-            let Error::Scene { path, .. } = refused(&good, &run) else {
+            let Error::Argument { path, .. } = refused(&good, &run) else {
                 panic!("{name} = {bad}");
             };
             assert_eq!(path, name);
@@ -186,7 +186,7 @@ fn nan_infinite_and_absurd_input_is_refused_by_name() {
         start: Start::State(state),
         ..short(1e-3)
     };
-    assert!(matches!(refused(&good, &run), Error::Scene { path, .. } if path == "start[17]"));
+    assert!(matches!(refused(&good, &run), Error::Argument { path, .. } if path == "start[17]"));
 }
 
 /// Failure: a tolerance below rounding stalls, one above the motion lies. Truth: the permitted ends, 1e-12 and 1e-1, run
@@ -210,7 +210,9 @@ fn absurd_tolerances() {
         assert!(out.warnings().is_empty());
     }
     for rtol in [0.0, -1e-6, 1e-13, 0.2, 1.0] {
-        assert!(matches!(refused(&scene, &at(rtol)), Error::Scene { path, .. } if path == "rtol"));
+        assert!(
+            matches!(refused(&scene, &at(rtol)), Error::Argument { path, .. } if path == "rtol")
+        );
     }
 }
 
@@ -256,6 +258,7 @@ fn a_collapsed_step_names_what_caused_it() {
             body,
             contacts,
             reason,
+            ..
         } = error
         else {
             panic!("{name}: {error}");

@@ -28,12 +28,12 @@ fn sticking_is_a_creep_that_falls_with_the_slip_speed() {
         let mut scene = with_friction(one_ball(10e-6), slip_speed);
         scene.gravity = [0.0, -9.81, 0.0];
         scene.contact.damping = 0.2;
-        scene.probes.insert("energy".to_owned(), Probe::Energy {});
+        scene.probes.insert("energy".to_owned(), Probe::energy());
         let model = compile(&scene).unwrap();
         let y0 = start(&model, &Start::Rolling).unwrap();
         let loads: f64 = Race::BOTH
             .into_iter()
-            .map(|race| inspect::contact(&model, &y0, 0, race).load)
+            .map(|race| inspect::contact(&model, &y0, 0, race).unwrap().load)
             .sum();
         let expected = ball_mass() * 9.81 * slip_speed / (0.05 * loads);
         let out = run(
@@ -60,14 +60,8 @@ fn driven(speed: TimeFunction, slip_speed: f64) -> Scene {
     let mut scene = with_friction(presets::deep_groove_6205(500.0, 0.0, 0.0), slip_speed);
     scene.drive = Drive::Speed(speed);
     scene.probes = [
-        ("energy".to_owned(), Probe::Energy {}),
-        (
-            "ball".to_owned(),
-            Probe::Motion {
-                body: "row0.ball0".to_owned(),
-                components: None,
-            },
-        ),
+        ("energy".to_owned(), Probe::energy()),
+        ("ball".to_owned(), Probe::motion("row0.ball0")),
     ]
     .into();
     scene
@@ -165,7 +159,7 @@ fn no_friction_law_gives_energy() {
                 for (i, state) in y.iter_mut().enumerate().skip(half) {
                     *state += scale * (((i * 7919) % 997) as f64 / 997.0 - 0.5);
                 }
-                let power = inspect::energy(&model, &y).friction_power;
+                let power = inspect::energy(&model, &y).unwrap().friction_power;
                 assert!(power >= 0.0, "{law:?} {scale}: {power}");
             }
         }

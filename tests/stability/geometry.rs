@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 
 use ballrace::compile;
 use ballrace::scene::{
-    ContactQuantity, Friction, NormalLaw, Probe, RingName, Scene, Slices, presets,
+    ContactQuantity, ContactsProbe, Friction, NormalLaw, Probe, RingName, Scene, Slices, presets,
 };
 use ballrace::{Error, Run, Start, Warning, equilibrium, simulate, start};
 use common::{rms, run, short};
@@ -16,12 +16,10 @@ use common::{rms, run, short};
 fn loads_probe(scene: &mut Scene, race: RingName) {
     scene.probes.insert(
         "loads".to_owned(),
-        Probe::Contacts {
-            row: 0,
-            balls: None,
-            races: Some(vec![race]),
-            quantities: Some(vec![ContactQuantity::Load]),
-        },
+        ContactsProbe::of_row(0)
+            .races([race])
+            .quantities([ContactQuantity::Load])
+            .into(),
     );
 }
 
@@ -31,12 +29,9 @@ fn carried(scene: &Scene, duration: f64) -> usize {
     let eq = equilibrium(scene).unwrap_or_else(|error| panic!("{}: {error}", scene.name));
     let loaded = eq.balls.iter().filter(|ball| ball.inner.load > 0.0).count();
     let mut scene = scene.clone();
-    scene.probes.insert(
-        "inner_forces".to_owned(),
-        Probe::Forces {
-            body: "inner".to_owned(),
-        },
-    );
+    scene
+        .probes
+        .insert("inner_forces".to_owned(), Probe::forces("inner"));
     let out = run(&scene, &short(duration));
     let column = |name: &str| out.get(name).unwrap();
     let sum = |direction: &str| -> f64 {

@@ -209,7 +209,7 @@ fn squeezed_in_balance(model: &Model) -> Vec<f64> {
 }
 
 /// Failure: friction shrinks the explicit step with the slip speed, to 3.31/λ.
-/// Truth: λ = 5 μ N/(m v_s) (model section 5) against the right-hand side's own derivative; a fixed step 2 % within
+/// Truth: λ = 5 μ N/(m v_s) against the right-hand side's own derivative; a fixed step 2 % within
 /// the limit lets the spin of a squeezed ball die out, 2 % beyond it lets it grow.
 #[test]
 fn friction_holds_the_step_at_the_stability_limit() {
@@ -218,7 +218,7 @@ fn friction_holds_the_step_at_the_stability_limit() {
         scene.friction = coulomb(0.05, slip_speed);
         let model = compile(&scene).unwrap();
         let y0 = squeezed_in_balance(&model);
-        let loads = Race::BOTH.map(|race| inspect::contact(&model, &y0, 0, race).load);
+        let loads = Race::BOTH.map(|race| inspect::contact(&model, &y0, 0, race).unwrap().load);
         let mass = 7850.0 * std::f64::consts::PI * 7.94e-3_f64.powi(3) / 6.0;
         let rate = 5.0 * 0.05 * f64::midpoint(loads[0], loads[1]) / (mass * slip_speed);
         let spin = y0.len() - 1;

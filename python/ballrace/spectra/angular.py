@@ -6,11 +6,9 @@ run-up (computed order tracking: K. R. Fyfe, E. D. S. Munck, Mech. Syst. Signal 
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
-import numpy as np
-
+from .. import _core
 from .._interrupt import answers_ctrl_c
 from .._numbers import counted, real_row
 from ..errors import SceneError
@@ -18,24 +16,10 @@ from .checks import checked_signal
 from .lines import spectrum
 
 if TYPE_CHECKING:
+    import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
 __all__ = ["by_order", "order_spectrum", "turning"]
-
-_FINER = 4
-"""Samples that a cubic spline is laid through, for each of the signal: exact to 0.2 % up to 0.4 fs."""
-
-_FILTER = {"window": ("kaiser", 8.0), "padtype": "antireflect"}
-"""Filter of the resampling: ripple and leakage below 1e-4, and a record that goes on as its ends point."""
-
-_FEWEST = 8
-"""Samples over the angle, at least."""
-
-_SLOWEST = 0.05
-"""Part of the highest speed below which a shaft all but stands."""
-
-_MOST = 64
-"""Samples over the angle for each over time, at most."""
 
 
 @answers_ctrl_c
@@ -73,25 +57,20 @@ def by_order(
     --------
     Three waves a turn, while the shaft goes from 10 to 30 turns a second:
 
+    >>> import numpy as np
     >>> t = np.arange(8000) / 4000.0
     >>> turns = 10.0 * t + 5.0 * t**2
     >>> turn, value = by_order(np.cos(2 * np.pi * 3.0 * turns), 2 * np.pi * turns, per_turn=64)
     >>> bool(np.allclose(value, np.cos(2 * np.pi * 3.0 * turn), atol=2e-3))
     True
     """
-    from scipy.interpolate import CubicSpline, PchipInterpolator
-    from scipy.signal import resample_poly
-
     signal = checked_signal(x, 1.0)
-    turns = _checked_turns(angle, signal.size)
-    rate, filtered = _rates(turns, per_turn)
-    finer = resample_poly(signal, _FINER, 1, **_FILTER)
-    at = np.arange(int(turns[-1] * rate * filtered) + 1) / (rate * filtered)
-    sample = PchipInterpolator(turns, np.arange(signal.size))(np.minimum(at, turns[-1]))
-    value = CubicSpline(np.arange(finer.size) / _FINER, finer)(sample)
-    if filtered > 1:
-        value, at = resample_poly(value, 1, filtered, **_FILTER), at[::filtered]
-    return at, value
+    turned = real_row("angle", angle)
+    if turned.shape != signal.shape:
+        text = f"one angle a sample, {signal.shape}"
+        raise SceneError("angle", f"an array of shape {turned.shape}", text)
+    rate = None if per_turn is None else counted("per_turn", per_turn, 2)
+    return _core.by_order(signal, turned, rate)
 
 
 def turning(angle: ArrayLike) -> slice:
@@ -106,18 +85,15 @@ def turning(angle: ArrayLike) -> slice:
 
     Examples
     --------
+    >>> import numpy as np
     >>> t = np.arange(8001) / 4000.0
     >>> turning(2 * np.pi * 10.0 * t**2)
     slice(400, 8001, None)
     """
-    speed = np.diff(real_row("angle", angle), axis=0)
-    slowest = _SLOWEST * speed.max(initial=0.0)
-    if speed.ndim != 1 or not slowest > 0.0 or speed.min() < -slowest:
-        return slice(0, speed.size + 1)  # which by_order refuses
-    turns = np.concatenate(([0], (speed >= slowest).astype(np.int8), [0]))
-    begins, ends = np.flatnonzero(np.diff(turns) == 1), np.flatnonzero(np.diff(turns) == -1)
-    longest = int(np.argmax(ends - begins))
-    return slice(int(begins[longest]), int(ends[longest]) + 1)
+    turned = real_row("angle", angle)
+    if turned.ndim != 1:
+        return slice(0, len(turned) if turned.ndim else 1)  # which by_order refuses
+    return slice(*_core.turning(turned))
 
 
 def order_spectrum(
@@ -147,6 +123,7 @@ def order_spectrum(
 
     Examples
     --------
+    >>> import numpy as np
     >>> t = np.arange(8000) / 4000.0
     >>> turns = 10.0 * t + 5.0 * t**2
     >>> order, value = order_spectrum(2.0 * np.cos(2 * np.pi * 3.0 * turns), 2 * np.pi * turns)
@@ -155,37 +132,3 @@ def order_spectrum(
     """
     turn, value = by_order(x, angle, per_turn)
     return spectrum(value, 1.0 / float(turn[1]))
-
-
-def _checked_turns(angle: ArrayLike, samples: int) -> NDArray[np.float64]:
-    turns = real_row("angle", angle) / (2.0 * math.pi)
-    if turns.shape != (samples,):
-        raise SceneError(
-            "angle", f"an array of shape {turns.shape}", f"one angle a sample, ({samples},)"
-        )
-    if not np.isfinite(turns).all() or not (np.diff(turns) > 0.0).all():
-        raise SceneError(
-            "angle",
-            "not rising",
-            "finite, and rising from each sample to the next, as that of a ring that turns",
-        )
-    found: NDArray[np.float64] = turns - turns[0]
-    return found
-
-
-def _rates(turns: NDArray[np.float64], per_turn: int | None) -> tuple[int, int]:
-    """Return the samples a turn, and how many times as many are taken before the filter."""
-    needed = math.ceil(1.0 / np.diff(turns).min())
-    rate = needed if per_turn is None else counted("per_turn", per_turn, 2)
-    if rate * turns[-1] < _FEWEST:
-        text = f"more; at {rate} samples a turn it gives fewer than {_FEWEST}"
-        raise SceneError("angle", f"{turns[-1]:.3g} turns", text)
-    filtered = max(math.ceil(needed / rate), 1)
-    if rate * filtered * turns[-1] > _MOST * turns.size:
-        text = f"{needed} samples a turn where it is slowest"
-        raise SceneError(
-            "angle",
-            text,
-            "one without the time in which the shaft almost stands; turning(angle) returns the rest",
-        )
-    return rate, filtered

@@ -1,7 +1,7 @@
 //! Forces of eight contacts at once with a ring that may tilt, in whose frame balls turn across its axis.
 //!
 //! To the sums of contacts of parallel rings ([`Sums`]) this adds the slip of that rotation, and the moments of friction across the axis
-//! (`docs/model.md`, *Rings that tilt, balls that spin freely*).
+//! ([*Rings that tilt*](crate::equations#rings-that-tilt-balls-that-spin-freely)).
 //! It is separate code, since in that of parallel rings the compiler would no longer fill whole registers.
 
 // Everything here must be compiled for the instructions of its caller.

@@ -34,7 +34,7 @@ use crate::contact::{V2, turned};
 
 /// A cap, compiled.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Cap {
+pub(super) struct CompiledCap {
     /// Radius of the ball \[m\].
     radius: f64,
     /// sin β and cos β.
@@ -51,7 +51,7 @@ pub(super) enum Lost {
     All,
 }
 
-impl DamageKind for Cap {
+impl DamageKind for CompiledCap {
     fn reach(&self, angle: f64, bed: &Bed) -> f64 {
         MARGIN * self.widest(&self.direction(angle, bed.middle))
     }
@@ -89,7 +89,7 @@ impl DamageKind for Cap {
     }
 }
 
-impl Cuts for Cap {
+impl Cuts for CompiledCap {
     fn arc(
         &self,
         of: &SurfaceDefect,
@@ -123,7 +123,7 @@ impl Cuts for Cap {
     }
 }
 
-impl Cap {
+impl CompiledCap {
     /// A cap of a ball, compiled.
     pub fn compiled(width: f64, edges: CircleEdges, bed: &Bed) -> AnyDamage {
         AnyDamage::Cap(Self::new(width, bed.radius, edges))

@@ -1,4 +1,4 @@
-//! Fault circles of ring and ball against whatever stands opposite (`docs/model.md`, *Defects*).
+//! Fault circles of ring and ball against whatever stands opposite ([*Defects*](crate::equations#defects)).
 
 use super::arc::{Edge, WITH_RING_AXIS};
 use super::depth::Depth;

@@ -50,7 +50,7 @@ type Varied = Dual<f64, 3>;
 
 /// A dent, compiled.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Dent {
+pub(super) struct CompiledDent {
     hole: Hole,
     half: [f64; 2],
     depth: f64,
@@ -61,7 +61,7 @@ pub(super) struct Dent {
     bed: SmallBed,
 }
 
-impl Dent {
+impl CompiledDent {
     /// A dent of a surface, compiled: a width and a length, a depth and the height of the rim.
     pub fn compiled(width: f64, length: Option<f64>, depth: f64, rim: f64, bed: &Bed) -> AnyDamage {
         let half = half_axes(width, length);
@@ -210,7 +210,7 @@ impl RimMoments {
     }
 }
 
-impl DamageKind for Dent {
+impl DamageKind for CompiledDent {
     fn reach(&self, _angle: f64, _bed: &Bed) -> f64 {
         self.bed.reach()
     }
@@ -250,7 +250,7 @@ impl DamageKind for Dent {
     }
 }
 
-impl Releases for Dent {
+impl Releases for CompiledDent {
     fn bed(&self) -> &SmallBed {
         &self.bed
     }
@@ -284,10 +284,11 @@ mod tests {
     }
 
     /// A dent in contacts that bear 250 N at most.
-    fn dent(half: [f64; 2], depth: f64, rim: f64) -> Dent {
+    fn dent(half: [f64; 2], depth: f64, rim: f64) -> CompiledDent {
         let bed = Bed::round(0.0, 23.49e-3, [race(); 2]);
         let (width, length) = (2.0 * half[1], Some(2.0 * half[0]));
-        let AnyDamage::Dent(mut dent) = Dent::compiled(width, length, depth, rim, &bed) else {
+        let AnyDamage::Dent(mut dent) = CompiledDent::compiled(width, length, depth, rim, &bed)
+        else {
             panic!("a dent is none");
         };
         dent.widened(0.1157e-3);
@@ -295,7 +296,7 @@ mod tests {
     }
 
     /// Change of the force that a load \[N\] presses with, at one and the same approach.
-    fn change(dent: &Dent, load: f64, at: [f64; 2]) -> f64 {
+    fn change(dent: &CompiledDent, load: f64, at: [f64; 2]) -> f64 {
         let of = race();
         let depth = (load / of.stiffness).powf(2.0 / 3.0);
         let found = Unloading::of(&of, 0.4 * load * depth, &[dent.released(0, depth, at)]);

@@ -1,4 +1,4 @@
-//! Pits smaller than their contact: elliptic holes over which surfaces bulge, and share load (`docs/model.md`, *Defects*).
+//! Pits smaller than their contact: elliptic holes over which surfaces bulge, and share load ([*Defects*](crate::equations#defects)).
 //!
 //! The surfaces bulge into a hole that has lost the pressure p_h by u, a crack's opening, and the contact's elastic energy falls by
 //! half of p_h u. With the Hertz contact of the race as it was without the hole,
@@ -267,7 +267,7 @@ struct Strip {
     by_y: f64,
 }
 
-/// The truth is `docs/model.md`, *Defects*, and differences of V.
+/// The truth is [*Defects*](crate::equations#defects), and differences of V.
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -330,8 +330,8 @@ mod tests {
         );
     }
 
-    /// `docs/model.md`, *Defects*: loss \[N\] of (15.2) at fixed approach, printed to four digits; on the outer race beside 3.53, 25.29, 55.5, 89.1 and
-    /// 149.5 N of a solver by boundary elements.
+    /// [*Defects*](crate::equations#defects): loss \[N\] at fixed approach, printed to four digits; on the outer race beside 3.53, 25.29,
+    /// 55.5, 89.1 and 149.5 N of a solver by boundary elements.
     #[test]
     fn losses_are_those_of_the_table() {
         for (sigma, load, c, y, loss) in [
@@ -376,7 +376,7 @@ mod tests {
     }
 
     /// Analytic: the force has no jump along a pass, and as the contact is pressed none but where its chord's end passes the pit's: 2e-3 of
-    /// itself there (`docs/model.md`, *Defects*).
+    /// itself there ([*Defects*](crate::equations#defects)).
     #[test]
     fn forces_do_not_jump() {
         let of = race(1.0);

@@ -1,9 +1,9 @@
 //! Damage of surfaces: one file for each kind behind the trait [`DamageKind`], and what a contact meets where a surface is damaged.
 //!
-//! A damage acts in one of two ways ([`Acts`]): the surface is absent over arcs at whose ends fault circles stand (`docs/model.md`, *Defects*), or the
-//! contact keeps whole surfaces and changes its energy, and with it its force. [`Facing`] is a ball before a race: `elements`
-//! has the surfaces that a slice meets there, `circles` fault circles against whatever stands opposite, `gradient` what makes their forces
-//! conservative, `released` the energy of what is smaller than the contact.
+//! A damage acts in one of two ways ([`Acts`]): the surface is absent over arcs at whose ends fault circles stand
+//! ([*Defects*](crate::equations#defects)), or the contact keeps whole surfaces and changes its energy, and with it its force. [`Facing`]
+//! is a ball before a race: `elements` has the surfaces that a slice meets there, `circles` fault circles against whatever stands opposite,
+//! `gradient` what makes their forces conservative, `released` the energy of what is smaller than the contact.
 
 mod arc;
 mod cap;
@@ -29,11 +29,11 @@ use crate::contact::hertz::Hertz;
 use crate::scene::{Damage, Defect};
 pub(super) use arc::WITH_RING_AXIS;
 use arc::{Arc, Station};
-use cap::Cap;
-use dent::Dent;
+use cap::CompiledCap;
+use dent::CompiledDent;
 use hole::Released;
-use patch::{CircleEdges, Patch};
-use pit::Pit;
+use patch::{CircleEdges, CompiledPatch};
+use pit::CompiledPit;
 use small::SmallBed;
 
 pub(super) use depth::{Depth, Sloped};
@@ -92,10 +92,10 @@ impl Bed {
 /// A compiled damage of any kind.
 #[derive(Debug, Clone, PartialEq)]
 enum AnyDamage {
-    Patch(Patch),
-    Cap(Cap),
-    Pit(Pit),
-    Dent(Dent),
+    Patch(CompiledPatch),
+    Cap(CompiledCap),
+    Pit(CompiledPit),
+    Dent(CompiledDent),
 }
 
 impl AnyDamage {
@@ -105,33 +105,19 @@ impl AnyDamage {
     /// For steep walls, in whose place a scene gets a patch before it is compiled.
     fn new(damage: &Damage, bed: &Bed) -> Self {
         match damage {
-            Damage::Patch {
-                length,
-                width,
-                edge_radius,
-                floor,
-            } => {
-                let edges = CircleEdges::new(*edge_radius, floor.as_ref());
-                Patch::compiled(*length, width, edges)
+            Damage::Patch(of) => {
+                let edges = CircleEdges::new(of.edge_radius, of.floor.as_ref());
+                CompiledPatch::compiled(of.length, &of.width, edges)
             }
-            Damage::SteepPatch { .. } => {
-                panic!("steep walls are placed before a scene is compiled")
+            Damage::SteepPatch(_) => panic!("steep walls are placed before a scene is compiled"),
+            Damage::Cap(of) => {
+                let edges = CircleEdges::new(of.edge_radius, of.floor.as_ref());
+                CompiledCap::compiled(of.width, edges, bed)
             }
-            Damage::Cap {
-                width,
-                edge_radius,
-                floor,
-            } => {
-                let edges = CircleEdges::new(*edge_radius, floor.as_ref());
-                Cap::compiled(*width, edges, bed)
+            Damage::Pit(of) => CompiledPit::compiled(of.width, of.length, bed),
+            Damage::Dent(of) => {
+                CompiledDent::compiled(of.width, of.length, of.depth, of.rim_height, bed)
             }
-            Damage::Pit { width, length } => Pit::compiled(*width, *length, bed),
-            Damage::Dent {
-                width,
-                length,
-                depth,
-                rim_height,
-            } => Dent::compiled(*width, *length, *depth, *rim_height, bed),
         }
     }
 

@@ -13,7 +13,7 @@ use crate::scene::{Floor, Width};
 
 /// A patch, compiled.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Patch {
+pub(super) struct CompiledPatch {
     /// Axial length \[m\].
     length: f64,
     width: Width,
@@ -36,7 +36,7 @@ impl CircleEdges {
     }
 }
 
-impl Patch {
+impl CompiledPatch {
     /// A patch of a surface, compiled.
     pub fn compiled(length: f64, width: &Width, edges: CircleEdges) -> AnyDamage {
         AnyDamage::Patch(Self {
@@ -47,7 +47,7 @@ impl Patch {
     }
 }
 
-impl DamageKind for Patch {
+impl DamageKind for CompiledPatch {
     fn reach(&self, _angle: f64, bed: &Bed) -> f64 {
         MARGIN * self.width.largest() / (2.0 * bed.least)
     }
@@ -85,7 +85,7 @@ impl DamageKind for Patch {
     }
 }
 
-impl Cuts for Patch {
+impl Cuts for CompiledPatch {
     fn arc(
         &self,
         of: &SurfaceDefect,

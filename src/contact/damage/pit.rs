@@ -9,12 +9,12 @@ use super::{Acts, AnyDamage, Bed, DamageKind, Releases, SurfaceDefect};
 
 /// A pit, compiled.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Pit {
+pub(super) struct CompiledPit {
     hole: Hole,
     bed: SmallBed,
 }
 
-impl Pit {
+impl CompiledPit {
     /// A pit of a surface, compiled.
     pub fn compiled(width: f64, length: Option<f64>, bed: &Bed) -> AnyDamage {
         let half = half_axes(width, length);
@@ -25,7 +25,7 @@ impl Pit {
     }
 }
 
-impl DamageKind for Pit {
+impl DamageKind for CompiledPit {
     fn reach(&self, _angle: f64, _bed: &Bed) -> f64 {
         self.bed.reach()
     }
@@ -60,7 +60,7 @@ impl DamageKind for Pit {
     }
 }
 
-impl Releases for Pit {
+impl Releases for CompiledPit {
     fn bed(&self) -> &SmallBed {
         &self.bed
     }

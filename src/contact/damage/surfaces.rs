@@ -12,7 +12,7 @@
 //! | recessed circle | s_race − s_circle | ∞ |
 //!
 //! so that edges carry the law at s_j less the law at s₁₂ = s₁ + s₂ − s_race and the race the law at s₁₂
-//! (the narrow rule of `docs/model.md`, *Defects*). A ball defect splits each of these terms once more in the same way.
+//! (the narrow rule of [*Defects*](crate::equations#defects)). A ball defect splits each of these terms once more in the same way.
 //! What the gradients of these energies have beside forces along normals stands in `gradient`.
 
 use nalgebra::Vector3;

@@ -5,9 +5,10 @@
 #[non_exhaustive]
 pub enum Cut {
     /// Slices of the ball's surface, each of which presses along its own normal by its penetration in the plane,
-    /// s = σ (d − R(z)) + ρ (`docs/model.md`, *Slices*). The line is the chord that ball and groove have in common.
+    /// s = σ (d − R(z)) + ρ ([*Slices*](crate::equations#slices)). The line is the chord that ball and groove have in common.
     BallSurface,
-    /// Elements of the common tangent, which all press along the common normal by δ − κ u²/2 (`docs/model.md`, *Normal force*).
+    /// Elements of the common tangent, which all press along the common normal by δ − κ u²/2 ([*Normal
+    /// force*](crate::equations#normal-force)).
     CommonTangent {
         /// κ, curvature of the gap that the zone sees \[1/m\].
         curvature: f64,

@@ -20,7 +20,8 @@ use crate::simd::{LANES, Lanes, Number};
 /// | c_k | coefficients: of a wave of order n, its values over (2 + cos(2πn/N))/3 | m |
 ///
 /// Height and slope are those of one spline, so forces that follow from them are conservative whatever its error. That is, of the
-/// shortest wave's amplitude at N/n = 8, 12, 16, 32: height 1e-3, 2e-4, 6e-5, 4e-6, slope 4e-3, 1e-3, 5e-4, 6e-5 (`docs/model.md`, *Geometry of a row*).
+/// shortest wave's amplitude at N/n = 8, 12, 16, 32: height 1e-3, 2e-4, 6e-5, 4e-6, slope 4e-3, 1e-3, 5e-4, 6e-5 ([*Geometry of a
+/// row*](crate::equations#geometry-of-a-row)).
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct HeightTable {
     /// c_{N−1}, c_0, …, c_{N−1}, c_0, c_1: the four that count anywhere lie side by side.

@@ -1,8 +1,7 @@
 //! Races as functions R(z), and a ball at one in their meridional plane.
 //!
-//! A race is a torus (`docs/model.md`, *Geometry of a row*), a curve through points (`curve`; `contour` finds the contacts with it, `meeting` their
-//! zones). A gothic
-//! arch is two tori; see `scalar/shape.rs`.
+//! A race is a torus ([*Geometry of a row*](crate::equations#geometry-of-a-row)), a curve through points (`curve`; `contour` finds the
+//! contacts with it, `meeting` their zones). A gothic arch is two tori; see `scalar/shape.rs`.
 
 mod contour;
 mod curve;

@@ -6,7 +6,7 @@
 use crate::simd::{Decision, Number};
 
 /// A ball before a groove: the ball's centre is the origin, the groove's centre lies at axial place c and at −e along
-/// the outward normal n_e; both races look alike here (`docs/model.md`, *Slices*).
+/// the outward normal n_e; both races look alike here ([*Slices*](crate::equations#slices)).
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Section<T> {
     /// Ball radius R \[m\].

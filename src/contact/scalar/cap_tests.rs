@@ -8,7 +8,7 @@ use crate::contact::{
     BallSide, Bed, ContactForce, Damping, Motion, Pair, PittedContact, PointForce, Sink,
     SurfaceDefect, Torus, Traction, V2, Wrench, ZoneSlices,
 };
-use crate::scene::{Damage, Defect, Floor, Friction, Material, Surface, WidthProfile};
+use crate::scene::{Cap, Defect, Floor, Friction, Material, Patch, Pit, Surface, WidthProfile};
 
 /// Effect of a contact on its ball, and of it what normal forces and friction take out.
 #[derive(Default)]
@@ -44,12 +44,11 @@ impl Sink for ContactParts {
 
 /// A cap in the direction e, of a ball that has not turned.
 fn cap(e: &Vector3<f64>, width: f64, floor: Option<Floor>) -> BallSide {
-    let damage = Damage::Cap {
-        width,
-        edge_radius: 0.3e-3,
+    let cap = Cap {
         floor,
+        ..Cap::of_width(width).edge_radius(0.3e-3)
     };
-    let defect = Defect::of(damage, Surface::Ball, e.y.atan2(e.x));
+    let defect = Defect::of(cap, Surface::Ball, e.y.atan2(e.x));
     BallSide {
         defects: vec![SurfaceDefect::new(&defect, RADIUS * e.z, RADIUS)],
         ..BallSide::whole(RADIUS)
@@ -197,7 +196,7 @@ fn forces_and_moments_of_pits_are_the_gradient_of_the_energy() {
         let sigma = pair.race.sigma;
         let hertz = Hertz::new(sigma, 2.0 * RADIUS, 60e-3, 0.52, 0.3, &steel, &steel);
         let ball_with = |e: &Vector3<f64>| {
-            let defect = Defect::pit(Surface::Ball, e.y.atan2(e.x), 0.3e-3);
+            let defect = Defect::of(Pit::of_width(0.3e-3), Surface::Ball, e.y.atan2(e.x));
             let mut pit = SurfaceDefect::within(
                 &defect,
                 &Bed::round(RADIUS * e.z, RADIUS, [PittedContact::of(&hertz); 2]),
@@ -340,7 +339,13 @@ fn without_a_width_or_a_race_it_is_healthy() {
 fn a_patch_of_the_same_outline_does_the_same() {
     let patch = |e: &Vector3<f64>, positions: Vec<f64>, widths: Vec<f64>| {
         let outline = WidthProfile::new(positions, widths);
-        let defect = Defect::new(Surface::Ball, e.y.atan2(e.x), 1.9 * RADIUS, outline, 0.3e-3);
+        let defect = Defect::of(
+            Patch::of_width(outline)
+                .length(1.9 * RADIUS)
+                .edge_radius(0.3e-3),
+            Surface::Ball,
+            e.y.atan2(e.x),
+        );
         BallSide {
             defects: vec![SurfaceDefect::new(&defect, 0.0, 0.3 * RADIUS)],
             ..BallSide::whole(RADIUS)

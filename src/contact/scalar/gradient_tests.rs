@@ -11,7 +11,9 @@ use crate::contact::{
     BallSide, Bed, ContactForce, Elastic, Law, Motion, Pair, PittedContact, PointForce, Rules,
     Shape, SurfaceDefect, Torus, Waves, WrenchSum, ZoneSlices,
 };
-use crate::scene::{Damage, Defect, Floor, Material, Surface, Waviness, Width, WidthProfile};
+use crate::scene::{
+    Damage, Defect, Dent, Floor, Material, Patch, Pit, Surface, Waviness, Width, WidthProfile,
+};
 
 pub(super) const RADIUS: f64 = 6e-3;
 
@@ -126,13 +128,11 @@ fn defects() -> Vec<(&'static str, Defect)> {
         elements: 3,
     };
     let of = |length: f64, width: Width, floor: Option<Floor>| {
-        let damage = Damage::Patch {
-            length,
-            width,
-            edge_radius: 0.3e-3,
+        let patch = Patch {
             floor,
+            ..Patch::of_width(width).length(length).edge_radius(0.3e-3)
         };
-        Defect::of(damage, Surface::OuterRace, 0.0).at_offset(0.0)
+        Defect::of(patch, Surface::OuterRace, 0.0).at_offset(0.0)
     };
     let width = Width::Constant(0.7e-3);
     vec![
@@ -186,32 +186,23 @@ fn moved(defect: &Defect, place: &[f64; 5], on_ball: bool) -> Defect {
 #[test]
 fn forces_of_pits_are_the_gradient_of_the_energy() {
     forces_of_small_damages([
-        Damage::Pit {
-            width: 0.24e-3,
-            length: Some(0.3e-3),
-        },
-        Damage::Pit {
-            width: 0.2e-3,
-            length: None,
-        },
+        Pit::of_width(0.24e-3).length(0.3e-3).into(),
+        Pit::of_width(0.2e-3).into(),
     ]);
 }
 
 #[test]
 fn forces_of_dents_are_the_gradient_of_the_energy() {
     forces_of_small_damages([
-        Damage::Dent {
-            width: 0.24e-3,
-            length: Some(0.3e-3),
-            depth: 9e-6,
-            rim_height: 0.5e-6,
-        },
-        Damage::Dent {
-            width: 0.2e-3,
-            length: None,
-            depth: 0.8e-6,
-            rim_height: 0.5e-6,
-        },
+        Dent::of_width(0.24e-3)
+            .length(0.3e-3)
+            .depth(9e-6)
+            .rim_height(0.5e-6)
+            .into(),
+        Dent::of_width(0.2e-3)
+            .depth(0.8e-6)
+            .rim_height(0.5e-6)
+            .into(),
     ]);
 }
 

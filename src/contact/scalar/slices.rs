@@ -2,7 +2,7 @@
 //!
 //! Ball and groove are two circles in the meridional plane, so the ends of the zone are known in closed form,
 //! the penetration vanishes there linearly and the force with the law's exponent. Gauss–Jacobi nodes for that
-//! weight on the whole zone converge exponentially (`docs/model.md`, *Slices*, but along
+//! weight on the whole zone converge exponentially ([*Slices*](crate::equations#slices), but along
 //! the common chord instead of ζ: six nodes err by 1.3e-6 instead of 6.5e-4, rms over angles to 45° and approaches to
 //! 40 µm). Where the end of a defect or a shoulder
 //! cuts the zone, the outer pieces keep the weight at their free end only. Inside a defect the elements have

@@ -1,5 +1,5 @@
 //! The cage: springs and dampers that keep the centres of neighbouring balls of a row at their distance ℓ₀, slack within ± p/2
-//! of it (model section 6).
+//! of it ([*Cage*](crate::equations#cage-supports-loads-drive)).
 //!
 //! ```text
 //! F = k_c (ℓ − ℓ₀ ∓ p/2) + c_c dℓ/dt        energy k_c (ℓ − ℓ₀ ∓ p/2)²/2        power c_c (dℓ/dt)²
@@ -68,7 +68,7 @@ pub(crate) struct Link {
     pub power: f64,
 }
 
-/// The link between two balls, model section 6.
+/// The link between two balls, [*Cage*](crate::equations#cage-supports-loads-drive).
 #[inline]
 pub(crate) fn link(cage: &scene::CageLinks, nominal: f64, first: &Motion, second: &Motion) -> Link {
     let apart = second.centre - first.centre;

@@ -1,5 +1,5 @@
 //! A cage that is a rigid ring: a body with an angle θ_c, and with a place c where its centre is free. Pocket k has the direction
-//! r_k = (cos a_k, sin a_k), t_k = ẑ × r_k, a_k = θ_c + 2πk/Z + ε_k (model section 19).
+//! r_k = (cos a_k, sin a_k), t_k = ẑ × r_k, a_k = θ_c + 2πk/Z + ε_k ([*Cage*](crate::equations#cage-supports-loads-drive)).
 //!
 //! ```text
 //! e = p_b − c     lead g = e·t_k     n = ±t_k towards the wall     δ = |g| − c_p         straight walls along r_k

@@ -16,7 +16,7 @@ mod units;
 
 use std::fmt;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{Profile, Scene, TimeFunction};
 use crate::base::quantities::number;
@@ -29,7 +29,7 @@ pub(crate) use speed::AtSpeed;
 pub const STATIC_PRESSURE: f64 = 4.2e9;
 
 /// A value that no bearing is likely to have.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Doubt {
     /// Path of the field, such as `rows[0].ball_diameter`, or what follows from the scene, such as `contact pressure`.

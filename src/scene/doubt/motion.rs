@@ -83,7 +83,7 @@ pub(super) fn look(scene: &Scene, found: &mut Vec<Doubt>) {
     }
 }
 
-/// Pockets that are as stiff as contacts, and whose friction lifts balls off the outer race (model section 19.1).
+/// Pockets that are as stiff as contacts, and whose friction lifts balls off the outer race.
 fn pockets(scene: &Scene, ring: &CageRing, found: &mut Vec<Doubt>) {
     let [gx, gy, _] = scene.gravity;
     let gravity = gx.hypot(gy);

@@ -18,8 +18,8 @@ const DIRECTIONS: [&str; 8] = [
 pub(super) fn look(scene: &Scene, found: &mut Vec<Doubt>) {
     for (name, probe) in &scene.probes {
         match probe {
-            Probe::Motion { body, components } => {
-                found.extend(still(scene, name, body, components.as_deref()));
+            Probe::Motion(of) => {
+                found.extend(still(scene, name, &of.body, of.components.as_deref()));
             }
             Probe::Cage { .. } if scene.cage.is_none() => {
                 let usual = "the scene has no cage, so this probe records nothing";

@@ -4,7 +4,7 @@ use super::Doubt;
 use crate::base::quantities::number;
 use crate::scene::{Scene, Texture};
 
-/// Largest amplitude at order 30 \[m\]: quiet bearings have 0.2 to 5 nm (`docs/model.md`, *Geometry of a row*).
+/// Largest amplitude at order 30 \[m\]: quiet bearings have 0.2 to 5 nm ([*Geometry of a row*](crate::equations#geometry-of-a-row)).
 const ROUGH: f64 = 20e-9;
 /// Largest root mean square of a profile around the circumference \[m\], as of a race out of round by some micrometres.
 const OUT_OF_ROUND: f64 = 1e-6;

@@ -12,26 +12,26 @@ fn known_body(scene: &Scene, path: &str, body: &str) -> Result<()> {
 
 pub(super) fn probe(scene: &Scene, path: &str, probe: &Probe) -> Result<()> {
     match probe {
-        Probe::Motion { body, components } => {
+        Probe::Motion(of) => {
             let path = format!("{path}.motion");
-            known_body(scene, &path, body)?;
-            let components = components.as_deref().unwrap_or_default();
-            of_body(scene, &path, body, components)
+            known_body(scene, &path, &of.body)?;
+            let components = of.components.as_deref().unwrap_or_default();
+            of_body(scene, &path, &of.body, components)
         }
         Probe::Forces { body } => known_body(scene, &format!("{path}.forces"), body),
         Probe::Cage { row } => scene.row_index(&format!("{path}.cage"), *row).map(|_| ()),
         Probe::Lubrication { row } => lubricated(scene, &format!("{path}.lubrication"), *row),
         Probe::Energy {} | Probe::Torque {} | Probe::Moments {} => Ok(()),
-        Probe::Contacts { row, balls, .. } => {
-            chosen(scene, &format!("{path}.contacts"), *row, balls.as_deref())
+        Probe::Contacts(of) => {
+            let path = format!("{path}.contacts");
+            chosen(scene, &path, of.row, of.balls.as_deref())
         }
-        Probe::Slices {
-            row, balls, times, ..
-        } => {
-            for (i, t) in times.iter().enumerate() {
-                within(&format!("{path}.slices.times[{i}]"), *t, 0.0..=1e9, "s")?;
+        Probe::Slices(of) => {
+            let path = format!("{path}.slices");
+            for (i, t) in of.times.iter().enumerate() {
+                within(&format!("{path}.times[{i}]"), *t, 0.0..=1e9, "s")?;
             }
-            chosen(scene, &format!("{path}.slices"), *row, balls.as_deref())
+            chosen(scene, &path, of.row, of.balls.as_deref())
         }
     }
 }

@@ -169,7 +169,7 @@ pub(super) fn limits(row: &Row, outer: bool) -> [f64; 2] {
     if let Some(profile) = profile {
         return [0, profile.z.len() - 1].map(|i| profile.z[i] + preload);
     }
-    // Axial place of a groove's centre from the row's plane (`docs/model.md`, *Geometry of a row*).
+    // Axial place of a groove's centre from the row's plane ([*Geometry of a row*](crate::equations#geometry-of-a-row)).
     let centre = |groove: f64, angle: f64, side: f64| {
         sign * side * (groove - row.ball_diameter / 2.0) * angle.sin() + preload
     };

@@ -16,7 +16,7 @@ use crate::simd::Distrust;
 
 /// Residual of the accelerations above which a run is warned of. Measured on the faulted wheel bearing in 140 runs
 /// over slip speeds of 1e-4 to 0.1 m/s, damping of 0 to 20 s/m and rtol of 1e-7 to 1e-1: above it the error against
-/// a converged run is 1.3 % and more, below it at most 0.8 % (`benches/stability_map.py`). Without the step cap an
+/// a converged run is 1.3 % and more, below it at most 0.8 %. Without the step cap an
 /// undamped run with an error of 11 % stays below.
 const LARGEST_RESIDUAL: f64 = 0.05;
 
@@ -24,7 +24,7 @@ const LARGEST_RESIDUAL: f64 = 0.05;
 const LARGEST_LOSS: f64 = 0.005;
 
 /// Share by which the balls may go round faster or slower than predicted without a warning, beside what the play of a cage lets them crowd
-/// in the loaded zone: half of it over the balls' pitch (`docs/defects.md`).
+/// in the loaded zone: half of it over the balls' pitch.
 const LARGEST_LEAD: f64 = 0.005;
 
 /// A reason to check the signals of a run.
@@ -34,6 +34,7 @@ const LARGEST_LEAD: f64 = 0.005;
 pub enum Warning {
     /// The recorded accelerations and the recorded motion do not belong together: the steps do not resolve the
     /// contacts, however small the error of the states.
+    #[non_exhaustive]
     Accelerations {
         /// [`crate::Statistics::acceleration_residual`].
         residual: f64,
@@ -46,6 +47,7 @@ pub enum Warning {
     /// chaotic.
     AccuracyMissed(Accuracy),
     /// Contacts reached beyond a shoulder, or beyond the pole of ball and groove where a zone ends there: the model has no race there.
+    #[non_exhaustive]
     Shoulders {
         /// [`crate::Statistics::truncated_contacts`].
         contacts: usize,
@@ -55,6 +57,7 @@ pub enum Warning {
     /// Fault of the processor, which computes wrongly at an instruction set that it says it has; a narrower one was used.
     Instructions(Distrust),
     /// The line of a defect lies above half the sampling rate.
+    #[non_exhaustive]
     SamplingRate {
         /// Sampling rate \[Hz\].
         fs: f64,
@@ -66,6 +69,7 @@ pub enum Warning {
     /// A number of the scene, or what follows from it, that no bearing is likely to have; a column that cannot change.
     Doubtful(Doubt),
     /// Balls passed a defect, and no contact was ever loaded within it.
+    #[non_exhaustive]
     Untouched {
         /// [`crate::Touched::name`].
         defect: String,
@@ -79,6 +83,7 @@ pub enum Warning {
         placed: Placed,
     },
     /// Defect that no ball passed: of its effect the run shows nothing.
+    #[non_exhaustive]
     Unpassed {
         /// [`crate::Touched::name`].
         defect: String,
@@ -86,6 +91,7 @@ pub enum Warning {
         duration: f64,
     },
     /// Nothing drives the balls along their orbit, and they have lost some of its rate.
+    #[non_exhaustive]
     FreeOrbit {
         /// [`crate::Statistics::orbit_slowed`].
         slowed: f64,
@@ -141,7 +147,7 @@ impl Signals {
             self.accelerations(),
             self.accuracy_missed(),
             self.shoulders(),
-            self.provenance.distrust.map(Warning::Instructions),
+            self.provenance.distrust.clone().map(Warning::Instructions),
             self.undersampled(),
             self.lost_orbit(),
         ]

@@ -2,8 +2,10 @@
 //! `src/python`. What is public has no type
 //! of the libraries beneath (`public`), files of a room name each other one way (`circles`), and functions and
 //! files are short (`length`). What documents leave out is found by its path (`left_out`). A type name is declared once (`names`).
+//! Documentation cites what there is (`cites`).
 
 mod circles;
+mod cites;
 mod interface;
 mod left_out;
 mod length;

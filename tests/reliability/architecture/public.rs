@@ -174,7 +174,34 @@ const CLOSED: [&str; 4] = ["Race", "BodyKind", "Degree", "ZoneSlices"];
 /// A struct of a scene's room that is complete, all that rolling depends on: outside it is written by the names of its fields.
 const GEOMETRY: &str = "RowGeometry";
 
-/// Public structs and enums of scenes, and enums of all rooms, that a later version could not extend.
+/// Enums whose variants have all that their formula has: another law or function is another variant, and outside they are written by the
+/// names of their fields.
+const FORMULAE: [&str; 7] = [
+    "Cage",
+    "Cut",
+    "Drive",
+    "Friction",
+    "Mount",
+    "NormalLaw",
+    "Profile",
+];
+
+/// Variants with fields that could not have another one later.
+fn frozen_variants<'a>(item: &'a str, name: &str) -> Vec<&'a str> {
+    if FORMULAE.contains(&name) || CLOSED.contains(&name) {
+        return Vec::new();
+    }
+    let lines: Vec<&str> = item.lines().collect();
+    let is_frozen = |pair: &&[&str]| {
+        let variant = pair[1].strip_prefix("    ").unwrap_or("");
+        let begins = variant.starts_with(char::is_uppercase) && variant.contains(" {");
+        begins && pair[0].trim() != "#[non_exhaustive]"
+    };
+    let frozen = lines.windows(2).filter(is_frozen);
+    frozen.map(|pair| word(pair[1].trim())).collect()
+}
+
+/// Public structs and enums of scenes, and enums of all rooms with their variants, that a later version could not extend.
 fn frozen(sources: &[Source]) -> (Vec<String>, usize) {
     let (mut found, mut seen) = (Vec::new(), 0);
     for (path, text) in sources {
@@ -189,6 +216,14 @@ fn frozen(sources: &[Source]) -> (Vec<String>, usize) {
             seen += 1;
             if !item.contains("#[non_exhaustive]\npub ") {
                 found.push(format!("{path}: {name} is not #[non_exhaustive]"));
+            }
+            if public_name(&item, "enum").is_some() {
+                let variants = frozen_variants(&item, name).into_iter();
+                found.extend(
+                    variants.map(|variant| {
+                        format!("{path}: {name}::{variant} is not #[non_exhaustive]")
+                    }),
+                );
             }
         }
     }
@@ -215,9 +250,50 @@ fn scenes_may_grow() {
             "#[non_exhaustive]\npub enum A {\n    B,\n}\n",
             0,
         ),
+        (
+            "run/a.rs",
+            "#[non_exhaustive]\npub enum A {\n    B {\n        a: f64,\n    },\n    #[non_exhaustive]\n    C {},\n}\n",
+            1,
+        ),
         ("run/a.rs", "pub enum A {\n    B,\n}\n", 1),
         ("run/a.rs", "pub struct A {\n    pub a: f64,\n}\n", 0),
     ] {
         assert_eq!(planted(path, text), count, "{text}");
     }
+}
+
+/// Words of Python, and of the commands of its package, in texts of the crate.
+fn of_python(sources: &[Source]) -> Vec<String> {
+    let words = [
+        "br.",
+        "`ballrace ",
+        "= None",
+        "True",
+        "False",
+        "numpy",
+        "keyword",
+    ];
+    let mut found = Vec::new();
+    for (path, text) in sources
+        .iter()
+        .filter(|(path, _)| !path.starts_with("python/"))
+    {
+        let code = code(text);
+        let texts = code.split('"').skip(1).step_by(2);
+        for text in texts {
+            let word = words.iter().find(|word| text.contains(**word));
+            found.extend(word.map(|word| format!("{path}: {word} in {text}")));
+        }
+    }
+    found
+}
+
+/// What the crate says is read by users of both languages.
+#[test]
+fn messages_have_no_words_of_python() {
+    let found = of_python(&all());
+    assert!(found.is_empty(), "{}", found.join("\n"));
+    let planted = |text: &str| of_python(&[("a.rs".to_owned(), text.to_owned())]).len();
+    assert_eq!(planted("fn f() { g(\"bandwidth = None\") }"), 1);
+    assert_eq!(planted("// br.simulate\nfn f() { g(None, \"none\") }"), 0);
 }

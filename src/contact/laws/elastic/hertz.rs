@@ -10,7 +10,7 @@ use crate::simd::Number;
 /// Exponent of the local penetration.
 pub const EXPONENT: f64 = 1.0;
 
-/// The slice law q(τ) = k' (δ − κ τ²/2) dτ (`docs/model.md`, *Normal force*), which integrates to F = K δ^{3/2} over a
+/// The slice law q(τ) = k' (δ − κ τ²/2) dτ ([*Normal force*](crate::equations#normal-force)), which integrates to F = K δ^{3/2} over a
 /// half-length a = c_a F^{1/3}.
 ///
 /// | symbol | meaning | unit |

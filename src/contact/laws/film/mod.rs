@@ -1,4 +1,4 @@
-//! Oil between ball and race: thickness of the film, its damping, friction and rolling resistance (`docs/model.md`, *Film*).
+//! Oil between ball and race: thickness of the film, its damping, friction and rolling resistance ([*Film*](crate::equations#film)).
 //!
 //! [`Oil`] is an oil at its temperature, [`Film`] what is constant of a race of a row, [`FilmNow`] what depends on the
 //! rings' speed only; of a contact it then asks one number, r = half/half_ref, which is the cube root of its load over the

@@ -6,7 +6,7 @@
 use super::Sliding;
 use crate::simd::Number;
 
-/// μ F u⃗/(c + √(u² + c²)) (`docs/model.md`, *Film*): smooth, with the slope μ/(2 c) where nothing slips.
+/// μ F u⃗/(c + √(u² + c²)) ([*Film*](crate::equations#film)): smooth, with the slope μ/(2 c) where nothing slips.
 ///
 /// | symbol | meaning | unit |
 /// |---|---|---|

@@ -11,7 +11,7 @@ use ballrace::InstructionSet;
 use ballrace::integrate::{DORMAND_PRINCE, Options, System, Tolerance, integrate};
 use ballrace::scene::presets::{self, Arrangement};
 use ballrace::scene::{
-    Defect, Drive, Friction, Load, Lubricant, RingName, Row, Spin, Surface, Texture,
+    Defect, Drive, Friction, Load, Lubricant, Patch, RingName, Row, Spin, Surface, Texture,
 };
 use ballrace::{
     Case, FeatureOptions, Model, Run, Scene, Simulation, Start, campaign, compile, dynamics,
@@ -80,7 +80,11 @@ fn scenes() -> Vec<(&'static str, Scene)> {
         });
     };
     let spalled = |scene: &mut Scene| {
-        let spall = Defect::new(Surface::OuterRace, -1.57, 1e-3, 2e-3, 1e-4);
+        let spall = Defect::of(
+            Patch::of_width(2e-3).length(1e-3).edge_radius(1e-4),
+            Surface::OuterRace,
+            -1.57,
+        );
         scene.defects.insert("spall".to_owned(), spall);
     };
     let textured = |scene: &mut Scene| scene.rows[0].texture = Some(Texture::of_races(1e-7));

@@ -31,7 +31,7 @@ pub fn of_a_scene<T>(outcome: Result<T>) -> Option<T> {
             .find(|word| text.contains(**word));
         assert!(of_rust.is_none(), "{text}");
     }
-    if let Err(Error::Scene { path, .. }) = &outcome {
+    if let Err(Error::Scene { path, .. } | Error::Argument { path, .. }) = &outcome {
         let first = path.split(['.', '[']).next().unwrap_or_default();
         assert!(known().contains(first), "no field: {path}");
     }
@@ -43,7 +43,7 @@ fn check_message(error: &Error) {
     let text = error.to_string();
     assert!(!text.trim().is_empty());
     match error {
-        Error::Scene { path, allowed, .. } => {
+        Error::Scene { path, allowed, .. } | Error::Argument { path, allowed, .. } => {
             assert!(!path.is_empty(), "no field: {text}");
             assert!(!allowed.is_empty(), "nothing is allowed: {text}");
         }
@@ -53,7 +53,7 @@ fn check_message(error: &Error) {
             assert!(time.is_finite() && step.is_finite(), "{text}");
             assert!(!reason.is_empty(), "{text}");
         }
-        Error::Equilibrium { reason } => assert!(!reason.is_empty(), "{text}"),
+        Error::Equilibrium { reason, .. } => assert!(!reason.is_empty(), "{text}"),
         Error::Memory {
             needed, available, ..
         } => assert!(needed > available, "{text}"),

@@ -83,7 +83,7 @@ fn methods() -> &'static [Option<String>] {
     static METHODS: std::sync::OnceLock<Vec<Option<String>>> = std::sync::OnceLock::new();
     METHODS.get_or_init(|| {
         let allowed = match Run::from_json(r#"{"method": "?"}"#) {
-            Err(Error::Scene { allowed, .. }) => allowed,
+            Err(Error::Argument { allowed, .. }) => allowed,
             other => panic!("{other:?}"),
         };
         let names = allowed.split('`').skip(3).step_by(2);
@@ -110,7 +110,7 @@ impl Short {
 
     /// Checks that a number of the run that is refused is the one that was given.
     fn names_what_was_given(&self, outcome: &ballrace::Result<Signals>) {
-        let Err(Error::Scene { path, value, .. }) = outcome else {
+        let Err(Error::Argument { path, value, .. }) = outcome else {
             return;
         };
         if let Some(given) = self.run.get(path).and_then(Value::as_f64) {

@@ -1,4 +1,4 @@
-//! Truths that hold of films by `docs/model.md`, *Film*: limits, smoothness, dimensions.
+//! Truths that hold of films by [*Film*](crate::equations#film): limits, smoothness, dimensions.
 
 use std::f64::consts::TAU;
 

@@ -1,4 +1,4 @@
-//! Section 12 of the model on one contact: reference values (12.14) and what must hold (12.12).
+//! Films of one contact: reference values and what must hold.
 
 mod limits;
 mod reference;

@@ -1,4 +1,4 @@
-//! Reference values of `docs/model.md`, *Film*. Tolerances are those that stand there, or half the last printed digit.
+//! Reference values of [*Film*](crate::equations#film). Tolerances are those that stand there, or half the last printed digit.
 
 use std::f64::consts::{PI, TAU};
 
