@@ -126,7 +126,7 @@ fn checked_rate(turns: &[f64], per_turn: Option<usize>) -> Result<usize> {
     // Without a turn there is no rate either.
     let needed = if all > 0.0 { of_the_slowest(turns) } else { 2 };
     let rate = per_turn.unwrap_or(needed);
-    if !(rate as f64 * all >= FEWEST) {
+    if rate as f64 * all < FEWEST {
         let allowed = format!("more; at {rate} samples a turn it gives fewer than {FEWEST}");
         return Err(Error::argument("angle", format!("{all:.3} turns"), allowed));
     }

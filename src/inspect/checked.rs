@@ -126,9 +126,10 @@ mod tests {
                 "y = {count} numbers: {} numbers, named by the model",
                 y.len()
             );
-            assert_eq!(
-                words(&other, 0),
-                [const { () }; 7].map(|()| Some(refused.clone()))
+            assert!(
+                words(&other, 0)
+                    .iter()
+                    .all(|text| text.as_ref() == Some(&refused))
             );
         }
         let missing = words(&y, 9).map(Option::unwrap_or_default);

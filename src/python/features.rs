@@ -17,6 +17,9 @@ use ballrace::{Error, FaultFrequencies, Feature, FeatureOptions, Scene};
 
 type Array<'py> = PyReadonlyArray1<'py, f64>;
 
+/// An array that Python gets.
+type NumpyRow<'py> = Bound<'py, PyArray1<f64>>;
+
 /// Names and values; `None` where a signal cannot give one.
 type Named = Vec<(String, Option<f64>)>;
 
@@ -112,7 +115,7 @@ pub(super) fn by_order<'py>(
     x: Array<'py>,
     angle: Array<'py>,
     per_turn: Option<usize>,
-) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>)> {
+) -> PyResult<(NumpyRow<'py>, NumpyRow<'py>)> {
     let (x, angle) = (copied(&x), copied(&angle));
     let found = py.detach(|| ballrace::by_order(&x, &angle, per_turn));
     let (turn, value) = found.or_raise(py)?;

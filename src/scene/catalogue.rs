@@ -129,9 +129,8 @@ pub fn find(designation: &str) -> Result<&'static Bearing> {
     let mut known = BEARINGS.iter();
     let found = known.find(|bearing| bearing.designation.eq_ignore_ascii_case(wanted));
     found.ok_or_else(|| {
-        let allowed = match bare(wanted) {
-            Some(bare) => format!("without suffixes for seals, cage, clearance and maker: {bare}"),
-            None => {
+        let allowed = bare(wanted).map_or_else(
+            || {
                 let names: Vec<&str> = BEARINGS.iter().map(|of| of.designation.as_str()).collect();
                 let perhaps = nearest(wanted, &names).map(|name| format!(", perhaps {name}"));
                 format!(
@@ -139,8 +138,9 @@ pub fn find(designation: &str) -> Result<&'static Bearing> {
                     names.len(),
                     perhaps.unwrap_or_default()
                 )
-            }
-        };
+            },
+            |bare| format!("without suffixes for seals, cage, clearance and maker: {bare}"),
+        );
         Error::argument("designation", designation, allowed)
     })
 }

@@ -29,11 +29,11 @@ fn plain(line: &str) -> String {
         let link = link.and_then(|(text, after)| Some((text, after.split_once(')')?)));
         rest = match (mark, link, after.split_once('$')) {
             ("$", _, Some((equation, after))) => {
-                found += &format!("`{equation}`");
+                found.extend(["`", equation, "`"]);
                 after
             }
             ("[", Some((text, (target, after))), _) if target.starts_with('#') => {
-                found += &format!("[{text}]({target})");
+                found.extend(["[", text, "](", target, ")"]);
                 after
             }
             ("[", Some((text, (_, after))), _) => {
@@ -62,19 +62,12 @@ fn copy(page: &str) -> String {
         if !is_in || of_pictures {
             continue;
         }
-        found += &match paragraph
-            .strip_prefix("$$")
-            .and_then(|rest| rest.strip_suffix("$$"))
-        {
-            Some(equation) => format!("```text\n{equation}\n```\n\n"),
-            None => {
-                paragraph
-                    .lines()
-                    .map(|line| plain(line) + "\n")
-                    .collect::<String>()
-                    + "\n"
-            }
-        };
+        let equation = paragraph.strip_prefix("$$");
+        match equation.and_then(|rest| rest.strip_suffix("$$")) {
+            Some(equation) => found.extend(["```text\n", equation, "\n```\n"]),
+            None => found.extend(paragraph.lines().map(|line| plain(line) + "\n")),
+        }
+        found.push('\n');
     }
     found.trim_end().to_owned() + "\n"
 }
