@@ -3,7 +3,9 @@
 use std::fmt;
 
 use super::vector::{Vector, Wide};
-use pulp::{NullaryFnOnce, Scalar256b, Simd};
+#[cfg(target_arch = "x86_64")]
+use pulp::NullaryFnOnce;
+use pulp::{Scalar256b, Simd};
 
 /// An instruction set, named as in the x86-64 psABI. Elsewhere only [`InstructionSet::BASELINE`] exists.
 ///
