@@ -235,7 +235,7 @@ def test_friction_torque_under_thrust_is_palmgrens(name: str) -> None:
     assert 0.5 < torques["free"] / known < 2.0
     assert 4.0 < torques["axial"] / known < 10.0
     if name == "6205":
-        # SKF's sliding torque in a full film, also of μ 0.05, lies between: contacts slide everywhere, but do not pivot.
+        # SKF's sliding torque in a full film, also of μ 0.05, lies between: all slides, but nothing pivots.
         skf = br.friction_torque_skf(
             "62",
             bore=made.bore,
