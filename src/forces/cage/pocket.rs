@@ -103,6 +103,18 @@ pub(super) fn towards(cage: &CageModel, turning: &Turning, pocket: usize) -> V2 
     V2::new(cos * own.x - sin * own.y, sin * own.x + cos * own.y)
 }
 
+/// Whether a ball at e from the cage's centre, with a pocket towards r, is beyond the clearance; numbers that are none are.
+#[inline]
+fn reaches(cage: &CageModel, r: V2, e: V2) -> bool {
+    let within = match cage.carried {
+        Carried::Balls => (e - r * cage.radius).norm_squared() <= cage.clearance * cage.clearance,
+        Carried::Held | Carried::Spring(_) | Carried::Land(_) => {
+            cage.clearance > 0.0 && cross(r, e).abs() <= cage.clearance
+        }
+    };
+    !within
+}
+
 /// Force of a ball on the wall of its pocket; none within the clearance.
 #[inline]
 pub(super) fn wall(
@@ -112,23 +124,23 @@ pub(super) fn wall(
     ball: &InPocket,
 ) -> Option<Wall> {
     let (r, e) = (towards(cage, turning, pocket), ball.centre - turning.centre);
+    reaches(cage, r, e).then(|| pressed(cage, turning, (r, e), ball))
+}
+
+/// Force of a ball beyond the clearance.
+fn pressed(cage: &CageModel, turning: &Turning, (r, e): (V2, V2), ball: &InPocket) -> Wall {
     let (mut normal, mut depth) = match cage.carried {
         Carried::Balls => {
             let q = e - r * cage.radius;
             let length = q.norm();
-            let depth = length - cage.clearance;
-            if depth <= 0.0 {
-                return None;
-            }
-            (q / length, depth)
+            (q / length, length - cage.clearance)
         }
         Carried::Held | Carried::Spring(_) | Carried::Land(_) => {
-            let lead = e.y * r.x - e.x * r.y;
-            let depth = lead.abs() - cage.clearance;
-            if depth <= 0.0 && cage.clearance > 0.0 {
-                return None;
-            }
-            (V2::new(-r.y, r.x) * 1_f64.copysign(lead), depth)
+            let lead = cross(r, e);
+            (
+                V2::new(-r.y, r.x) * 1_f64.copysign(lead),
+                lead.abs() - cage.clearance,
+            )
         }
     };
     let laws = Laws::of_pockets(cage);
@@ -149,14 +161,14 @@ pub(super) fn wall(
     let arm = e.dot(&normal) + ball.radius;
     let slip = along.dot(&tangent) + ball.radius * ball.spin - turning.omega * arm;
     let friction = laws.rub(force, slip);
-    Some(Wall {
+    Wall {
         normal,
         force,
         friction,
         levers: [lever, arm],
         energy: laws.energy(depth),
         power: (force - laws.stiffness * depth) * closing - friction * slip,
-    })
+    }
 }
 
 impl Wall {

@@ -258,8 +258,10 @@ pub(crate) fn out_of_pocket(
         let Some(cage) = &row.cage else { continue };
         let centre = plane(state, carrier(model, at));
         let turning = Turning::new(&plane(state, model.layout().cage(at)), &centre);
+        let [x, y, ..] = state.q.directions();
         for (k, j) in row.balls().enumerate() {
-            let e = plane(state, BodyId::ball(j)).centre - turning.centre;
+            let i = BodyId::ball(j).index();
+            let e = V2::new(x[i], y[i]) - turning.centre;
             let r = towards(cage, &turning, k);
             let (lead, distance) = (cross(r, e), r.dot(&e));
             // Numbers that are none are out.

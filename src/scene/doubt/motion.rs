@@ -83,7 +83,8 @@ pub(super) fn look(scene: &Scene, found: &mut Vec<Doubt>) {
     }
 }
 
-/// Pockets that are as stiff as contacts, and whose friction lifts balls off the outer race.
+/// Pockets that are as stiff as contacts, and those whose friction lifts balls off the outer race more than that of the
+/// default ones does: of those very small and slow bearings rattle, too, as real ones do.
 fn pockets(scene: &Scene, ring: &CageRing, found: &mut Vec<Doubt>) {
     let [gx, gy, _] = scene.gravity;
     let gravity = gx.hypot(gy);
@@ -107,9 +108,14 @@ fn pockets(scene: &Scene, ring: &CageRing, found: &mut Vec<Doubt>) {
         }
         let ftf = row.geometry().orders().ftf;
         let thrown = (ftf * inner + (1.0 - ftf) * outer).powi(2) * pitch;
-        let fall = (4.0 * gravity * ring.pocket_clearance(d) * stiffness * ball).sqrt();
+        let fall = |of: &CageRing| {
+            (4.0 * gravity * of.pocket_clearance(d) * of.stiffness(d) * ball).sqrt()
+        };
+        let usually = CageRing::default();
+        let least = usually.friction * fall(&usually);
+        let fall = fall(ring);
         let held = 0.5 * ball * (thrown - gravity);
-        if thrown > PRESSED * gravity && ring.friction * fall > held {
+        if thrown > PRESSED * gravity && ring.friction * fall > held.max(least) {
             let usual = format!(
                 "balls that fall through their pockets meet the wall with up to {} N, and friction of more than {} N lifts them off \
                  the outer race: a healthy bearing rattles. {} would be the most",
