@@ -53,8 +53,8 @@ Noise times 1 + m cos φ has a squared envelope with lines of 2 m and m²/2 over
 has a depth of at most 0.24. Twice the frequency of the mains lies where a race's rate may lie.
 """
 
-_EXPLAINED = 0.08
-"""Share of a squared envelope's variance in lines of a part below which impacts come at other times than its rate.
+EXPLAINED = 0.08
+"""Share of a squared envelope's variance in lines below which impacts come at other times than its rate.
 
 Of 20 impacts at random in a second, in simulated records whose lines chance has in less than 1 %, they hold up to
 0.053; lines of damaged races of all measured sets hold 0.108 and more.
@@ -101,11 +101,6 @@ class Strength:
     def is_sine(self) -> bool:
         """Whether the part's lines may be of vibration that swells and fades as a sine, as by hum of the mains."""
         return self.overtones < _OVERTONES
-
-    @property
-    def is_elsewhere(self) -> bool:
-        """Whether most impacts come at other times than the part's rate."""
-        return self.explained < _EXPLAINED
 
     @property
     def is_smooth(self) -> bool:
