@@ -88,7 +88,7 @@ def scenes(row: Row, race: str, seeds: int) -> Iterator[br.Scene]:
         if row.scatter:
             table = br.scatter(scene, 1, seed=seed, ball_diameter=0.5e-6)
             changes = {key: value for key, value in table.row(0, named=True).items() if "[" in key}
-            scene = scene.replace({**changes, "cage.play": 0.2e-3})
+            scene = scene.replace({**changes, "cage.ring.pocket_clearance": 0.1e-3})
         yield scene
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -78,5 +79,22 @@ def passes(ax: Axes) -> None:
     ax.autoscale(axis="y")
 
 
+def cages(ax: Axes) -> None:
+    """Draw the ring's acceleration with links between neighbouring balls, and with a cage that is a ring."""
+    scene = br.bearing("6205", housing=None, radial_load=500.0, speed_rpm=1200.0)
+    links = br.scene.Cage(stiffness=1e6, damping=20.0, play=0.1e-3)
+    for name, cage, colour in (
+        ("links between balls", links, EDGE),
+        ("ring with pockets", scene.cage, RED),
+    ):
+        out = br.simulate(replace(scene, cage=cage), duration=0.05, fs=FS)
+        label = f"{name}: {out['outer.ay'].std():.2f} m/s²"
+        ax.plot(1e3 * out.t, out["outer.ay"], color=colour, lw=0.8, label=label)
+    ax.legend(frameon=False, fontsize=8)
+    labelled(ax, "healthy 6205, 500 N", "time [ms]", "ring's acceleration [m/s²]")
+    ax.autoscale(axis="y")
+
+
 if __name__ == "__main__":
     save("healthy", 9.5, 3.6, healthy, passes)
+    save("rattle", 7.0, 3.0, cages)

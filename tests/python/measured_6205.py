@@ -47,7 +47,9 @@ def simulated() -> br.Signals:
         "6205", radial_load=300.0, axial_load=80.0, speed_rpm=60.0 * SHAFT, clearance=5e-6, defects=pit,
         housing=None,
     )  # fmt: skip
-    return br.simulate(scene.replace({"cage.play": 0.0}), duration=0.4, fs=48_000.0)
+    return br.simulate(
+        scene.replace({"cage.ring.pocket_clearance": 0.0}), duration=0.4, fs=48_000.0
+    )
 
 
 def signals() -> dict[str, NDArray[np.float64]]:

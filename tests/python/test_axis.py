@@ -106,7 +106,11 @@ def test_frequencies_do_not_know_the_defect(on: str) -> None:
 
 
 def test_a_run_that_leads_its_forecast_says_so_and_why_is_no_start() -> None:
-    """Truth: a run six times as long, which leads as much; under three times the load it does not."""
+    """Truth: a run six times as long, which leads no less; under ten times the load it hardly does.
+
+    With so little load a row has a second steady state, in which the outer race alone turns its balls; a cage that
+    is a ring lets it come to that one, links hold it at 1.2 %.
+    """
     scene = br.bearing("7208B", radial_load=1000.0, speed_rpm=10_000.0)
     forecast = br.fault_frequencies(scene).ftf
     leads = []
@@ -115,11 +119,12 @@ def test_a_run_that_leads_its_forecast_says_so_and_why_is_no_start() -> None:
         leads.append(br.fault_frequencies(out).ftf / forecast - 1.0)
         text = next(text for text in out.warnings if "its balls orbited at" in text)
         assert f"{100.0 * leads[-1]:.1f} % faster" in text
-    assert min(leads) > 0.008
-    assert leads[1] == pytest.approx(leads[0], abs=0.003)
-    heavier = br.bearing("7208B", radial_load=3000.0, speed_rpm=10_000.0)
+    assert leads[1] > leads[0] > 0.1
+    heavier = br.bearing("7208B", radial_load=10_000.0, speed_rpm=10_000.0)
     out = _quietly(br.simulate, heavier, duration=0.05, fs=5e3)
-    assert abs(br.fault_frequencies(out).slip or 0.0) < 0.004
+    slip = br.fault_frequencies(out).slip
+    assert slip is not None
+    assert abs(slip) < 0.02
 
 
 def test_too_little_load_is_doubted() -> None:

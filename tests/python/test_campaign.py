@@ -39,6 +39,19 @@ def test_signals_are_those_of_a_run_alone(tmp_path: Path) -> None:
         done.signals(done.manifest["case_id"][0])
 
 
+def test_a_cage_that_is_a_ring_varies_in_a_campaign(tmp_path: Path) -> None:
+    """Truth: runs alone."""
+    scene = br.bearing("6205", radial_load=500.0, speed_rpm=1800.0)
+    path = "cage.ring.pocket_clearance"
+    cases = [{path: 0.0}, {path: 80e-6}]
+    done = run(cases, tmp_path, scene=scene, duration=DURATION, keep="signals")
+    for row in done.manifest.iter_rows(named=True):
+        alone = br.simulate(scene.replace({path: row[path]}), duration=DURATION, settle=0.0)
+        assert done.signals(row["case_id"]).equals(alone.to_polars())
+    first, second = (done.signals(case_id) for case_id in done.manifest["case_id"])
+    assert not first.equals(second)
+
+
 def test_features_are_those_of_the_signals(tmp_path: Path) -> None:
     """Another implementation: `ballrace.spectra` finds the same lines, or where they reach into the range."""
     scene = br.presets.wheel_bearing(3000.0)

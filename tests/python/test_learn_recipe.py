@@ -124,7 +124,7 @@ def test_a_bearing_keeps_its_surfaces_and_changes_its_load() -> None:
             "rows[0].texture.seed",
             "rows[0].diameter_errors",
             "rows[0].clearance",
-            "cage.play",
+            "cage.ring.pocket_clearance",
         } <= same
         assert "loads.radial.force" not in same
     assert len({row["rows[0].texture.seed"] for row in healthy}) == 40
@@ -158,9 +158,9 @@ def test_what_is_left_out_of_a_recipe_is_not_drawn() -> None:
 
 def test_balls_are_as_unlike_as_the_slip_says() -> None:
     errors = np.array([row["rows[0].diameter_errors"] for row in rows(None, slip=6e-3)])
-    assert errors.std() == pytest.approx(0.5e-6, rel=0.15)
-    assert max(row["cage.play"] for row in rows(None, slip=6e-3)) < 0.3e-3
-    assert min(row["cage.play"] for row in rows(None, slip=0.02)) > 0.33e-3
+    assert errors.std() == pytest.approx(6e-3 / 1.4e4, rel=0.15)
+    assert max(row["cage.ring.pocket_clearance"] for row in rows(None, slip=6e-3)) < 0.1e-3
+    assert min(row["cage.ring.pocket_clearance"] for row in rows(None, slip=0.02)) > 0.13e-3
 
 
 @pytest.mark.parametrize(

@@ -55,7 +55,7 @@ def test_of_a_run_the_cage_is_measured() -> None:
     """Thrust alone, friction and no play: the balls roll at the operating angle, and the cage with them."""
     scene = br.bearing("6205", radial_load=0.0, axial_load=400.0, speed_rpm=1800.0)
     probes = {"ball": MotionProbe(body="row0.ball2", components=("x", "y")), **scene.probes}
-    scene = replace(scene.replace({"cage.play": 0.0}), probes=probes)
+    scene = replace(scene.replace({"cage.ring.pocket_clearance": 0.0}), probes=probes)
     out = br.simulate(scene, duration=0.05, fs=10_000.0)
     found = br.fault_frequencies(out)
     turned = np.unwrap(np.arctan2(out["ball.y"], out["ball.x"]))
@@ -99,8 +99,9 @@ FAST = [
     (("7205C", 0.0, 300.0, 25_000.0), 2e-4),
     (("7218B", 0.0, 17_800.0, 10_000.0), 1e-3),
     (("7205A5", 0.0, 300.0, 25_000.0), 2e-4),
-    # Under a radial load no ball stays as it is: its axis lags behind the loads on its way.
-    (("7205B", 100.0, 500.0, 15_000.0), 8e-3),
+    # Under a radial load no ball stays as it is: its axis lags behind the loads on its way, the more the faster.
+    (("7205B", 100.0, 500.0, 3_000.0), 1e-3),
+    (("7205B", 100.0, 500.0, 15_000.0), 1.4e-2),
 ]
 
 

@@ -24,6 +24,14 @@ def scene(force: Any = 500.0) -> br.Scene:
     return br.presets.deep_groove_6205(radial_load=force, speed_rpm=1800.0)
 
 
+def ringed() -> br.Scene:
+    """A scene whose cage is a ring."""
+    return br.bearing("6205", radial_load=500.0, speed_rpm=1800.0)
+
+
+SCENES = pytest.mark.parametrize("of", [scene, ringed], ids=["links", "ring"])
+
+
 def same(one: br.Signals, two: br.Signals) -> None:
     assert one.names == two.names
     np.testing.assert_array_equal(one.t, two.t)
@@ -33,11 +41,12 @@ def same(one: br.Signals, two: br.Signals) -> None:
     np.testing.assert_array_equal(one.end_state, two.end_state)
 
 
+@SCENES
 @pytest.mark.parametrize("pieces", [[DURATION], [1e-7, 3e-6, 1e-3, 1.00001e-3, DURATION]])
-def test_pieces_give_the_bits_of_one_run(pieces: list[float]) -> None:
+def test_pieces_give_the_bits_of_one_run(pieces: list[float], of: Callable[[], br.Scene]) -> None:
     """Truth: the run in one piece."""
-    whole = br.simulate(scene(), duration=DURATION)
-    simulation = br.Simulation(scene(), duration=DURATION)
+    whole = br.simulate(of(), duration=DURATION)
+    simulation = br.Simulation(of(), duration=DURATION)
     for end in pieces:
         simulation.advance_to(end)
         assert simulation.time == end
@@ -70,10 +79,11 @@ def test_a_run_without_an_end_is_ended_where_it_stands() -> None:
     )
 
 
-def test_a_snapshot_goes_on_from_a_file(tmp_path: Path) -> None:
+@SCENES
+def test_a_snapshot_goes_on_from_a_file(of: Callable[[], br.Scene], tmp_path: Path) -> None:
     """Truth: the run in one piece."""
-    whole = br.simulate(scene(), duration=DURATION)
-    simulation = br.Simulation(scene(), duration=DURATION)
+    whole = br.simulate(of(), duration=DURATION)
+    simulation = br.Simulation(of(), duration=DURATION)
     simulation.advance_to(0.3 * DURATION)
     path = tmp_path / "half.parquet"
     taken = simulation.snapshot()

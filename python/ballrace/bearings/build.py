@@ -65,7 +65,7 @@ def bearing(
 ) -> Scene:
     """Return a scene of a bearing of the catalogue, ready to run.
 
-    The scene has Hertz's law, Coulomb friction, a cage of pressed steel with some play, balls that spin about any
+    The scene has Hertz's law, Coulomb friction, a steel cage with pockets, balls that spin about any
     axis where that changes orbit speed or a load at rest by more than 0.2 % (else about the bearing's), the inner
     ring on a shaft (1 kg in a 6205, damped, held by the balls only), the outer ring in a housing, one mass with
     it, on a mount, and probes of the motion of both rings. All of this can be changed by

@@ -11,7 +11,7 @@ from .. import _core
 from .._numbers import finite
 from ..errors import EquilibriumError, SceneError
 from ..scene import (
-    Cage,
+    CageRing,
     Coulomb,
     Defect,
     Load,
@@ -82,7 +82,7 @@ def filled(
         inner_ring=inner_ring,
         friction=Coulomb(coefficient=0.05, slip_speed=0.1),
         lubricant=chosen(lubricant, temperature_c),
-        cage=Cage(stiffness=1e6, damping=20.0, play=0.1e-3),
+        cage=CageRing(),
         loads=named("loads", loads, Load, _LOADS),
         unbalances=unbalances or {},
         drive=SpeedDrive(speed_rpm * math.pi / 30.0),

@@ -28,7 +28,7 @@ SURFACES: dict[str, Surface] = {"outer": "outer_race", "inner": "inner_race", "b
 """Names in scenes, verdicts and labels."""
 
 LARGEST_SLIP = 0.02
-"""Scatter that balls of 1.7 µm of scatter make in 0.7 mm of play: none that are sold are that unlike."""
+"""Scatter that balls of 1.4 µm of scatter make in 0.7 mm of play: none that are sold are that unlike."""
 
 _Surfaces = Literal["as_made", "smooth"]
 
@@ -65,8 +65,8 @@ class Recipe:
     slip : float, pair of float or None
         Scatter of the balls' spacing: standard deviation of the times between impacts of a fault on the outer
         race, over their mean, up to 0.02. It is produced by balls of different diameters in a cage with play: for
-        5e-3 in a 6205, a standard deviation of 0.5 µm, at most that of balls of grade 10 (ISO 3290-1), and a play
-        of 0.2 mm. Record 130 has 7e-3. None: equal balls in the scene's cage.
+        5e-3 in a 6205, a standard deviation of 0.36 µm, less than that of balls of grade 10 (ISO 3290-1), and a
+        play of 0.08 to 0.2 mm. Record 130 has 7e-3. None: equal balls in the scene's cage.
 
     Raises
     ------

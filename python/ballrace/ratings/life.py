@@ -187,11 +187,11 @@ def rating_life(
     >>> oiled = br.bearing("6205", radial_load=1400.0, speed_rpm=1797.0, lubricant="vg68", temperature_c=55.0)
     >>> found = br.rating_life(oiled, contamination="slight")
     >>> round(found.factor.kappa, 1), found.factor.cleanliness, round(found.factor.value, 1)
-    (2.0, 0.4, 4.1)
+    (2.0, 0.4, 4.0)
     >>> print(str(found).replace("; ", chr(10)))
     <RatingLife: L10 9275 h
-    L10r 7856 h, 8046 h by one cage position
-    L10mr 3.184e+04 h (a_ISO 4.05, κ 2.05 = ν/ν₁)>
+    L10r 7827 h, 8021 h by one cage position
+    L10mr 3.166e+04 h (a_ISO 4.05, κ 2.05 = ν/ν₁)>
     """
     healthy = replace(checked_scene(scene), defects={})
     if rating is not None:
