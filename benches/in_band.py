@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import argparse
 import csv
+import functools
 import warnings
 from dataclasses import replace
 from pathlib import Path
@@ -72,15 +73,9 @@ def run(scene: br.Scene, rtol: float, cap: float, **options: Any) -> br.Signals:
     return br.simulate(scene.replace(own), threads=1, fs=FS, **options)
 
 
-_LIMITS: dict[str, float] = {}
-
-
+@functools.cache
 def _limit(scene: br.Scene) -> float:
-    key = scene.to_json()
-    if key not in _LIMITS:
-        out = br.simulate(scene, duration=1e-4, fs=FS, settle=0.0)
-        _LIMITS[key] = out.provenance.step_limit
-    return _LIMITS[key]
+    return br.simulate(scene, duration=1e-4, fs=FS, settle=0.0).provenance.step_limit
 
 
 def samples(name: str, scene: br.Scene) -> Iterator[dict[str, object]]:

@@ -54,7 +54,7 @@ def healthy(ax: Axes) -> None:
     )
     ax.legend(frameon=False, fontsize=8)
     labelled(ax, "healthy 6205", "frequency [Hz]", "ring's acceleration\n[dB re 1 (m/s²)²/Hz]")
-    ax.set_ylim(-80.0, -5.0)
+    ax.set_ylim(-120.0, -25.0)
 
 
 def passes(ax: Axes) -> None:
@@ -91,7 +91,7 @@ def cages(ax: Axes) -> None:
         label = f"{name}: {out['outer.ay'].std():.2f} m/s²"
         ax.plot(1e3 * out.t, out["outer.ay"], color=colour, lw=0.8, label=label)
     ax.legend(frameon=False, fontsize=8)
-    labelled(ax, "healthy 6205, 500 N", "time [ms]", "ring's acceleration [m/s²]")
+    labelled(ax, "healthy 6205, 500 N, 1200 1/min", "time [ms]", "ring's acceleration [m/s²]")
     ax.autoscale(axis="y")
 
 

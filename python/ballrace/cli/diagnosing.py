@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 __all__ = ["add_commands"]
 
 _SPEED = re.compile(r"rpm|speed|drehzahl|1/min|min-1|r/min|u/min|tr/min|vitesse", re.IGNORECASE)
-"""How heads of files write that a number is a speed."""
+"""Pattern of a speed in the head of a file."""
 
 
 def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:

@@ -39,7 +39,7 @@ _NAME = (
 """Name of its file, as cargo gives it."""
 
 _PACKAGED = Path(__file__).parents[1] / "_fmu" / _NAME
-"""Where wheels of a release have it: no place where Python looks for modules."""
+"""Folder of the library in wheels of a release: no place where Python looks for modules."""
 
 _CARGO = ("cargo", "build", "--release", "--locked", "-p", "ballrace-fmu")
 

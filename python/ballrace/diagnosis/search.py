@@ -36,8 +36,8 @@ _ASIDE = 5.0
 """Level of the lines of a race that stands still over their sidebands at the shaft's turns below which they are
 sidebands of the other race's lines [dB].
 
-In 18 simulated records of damaged outer races lines are 9.6 dB and more above, in 11 of damaged inner races whose
-sidebands pass for an outer race's lines up to 2 dB.
+In 18 records of damaged outer races of the set of seed 44 of ``benches/verdict_set.py`` lines are 9.4 dB and more
+above, in ten of damaged inner races, whose sidebands pass for an outer race's lines with a z above 10, up to 2 dB.
 """
 
 _NEAR = 0.0025
@@ -98,7 +98,7 @@ class _Record:
         return np.array([k * rate + one for k in range(1, count) for one in beside])
 
     def is_aside(self, one: Search) -> bool:
-        """Whether lines are sidebands of a race that turns: those of one that stands still have hardly any."""
+        """Return whether lines of a race that stands still are sidebands of the other race's lines."""
         if one.part == "ball" or one.comb.sideband != 0.0:
             return False
         rate = self.rate(one.comb, one.found)

@@ -99,7 +99,7 @@ class Strength:
 
     @property
     def is_sine(self) -> bool:
-        """Whether the part's lines may be of vibration that swells and fades as a sine, as by hum of the mains."""
+        """Whether lines of a part may be of vibration that swells and fades as a sine, as by hum of the mains."""
         return self.overtones < _OVERTONES
 
     @property

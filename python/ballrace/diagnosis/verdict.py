@@ -48,7 +48,8 @@ _OF_BURSTS = 0.3
 _BESIDE = 0.5
 """Height and acceleration over those of the other race below which lines of a race are that one's sidebands.
 
-Of simulated 6205 with both races spalled none is below in both; of one with an inner race alone 0.35 and 0.30.
+Of five simulated 6205 with both races spalled none is below in both; one with an inner race alone
+has 0.35 and 0.30.
 """
 
 _CLEARED = 0.2
@@ -86,7 +87,7 @@ class Size:
         return _FAINT * math.pi * self.diameter * self.rate
 
     def is_tiny(self, one: Evidence) -> bool:
-        """Whether a healthy bearing may have impacts as strong."""
+        """Return whether a part's lines are so weak that a healthy bearing may have impacts as strong."""
         return at_any_size(one.strength.acceleration, self.diameter, self.rate) < _TINY
 
 
@@ -178,7 +179,7 @@ def _is_faint(one: Evidence, size: Size | None) -> bool:
 
 
 def _is_of(one: Evidence, surer: Evidence) -> bool:
-    """Whether lines of a race are sidebands of the other's (BPFO is Z f_r − BPFI), low and weak beside them."""
+    """Return whether a race's low and weak lines are sidebands of the other race's: BPFO is Z f_r − BPFI."""
     return (
         {one.part, surer.part} == {"outer_race", "inner_race"}
         and one.height < _BESIDE * surer.height

@@ -111,7 +111,7 @@ class Runner:
 
 
 class Forecast:
-    """What a simulated second of the newest scene costs, worked out on a thread once the scene stays the same."""
+    """Cost of a simulated second of the newest scene, worked out on a thread once the scene stays the same."""
 
     def __init__(self) -> None:
         self._changed = threading.Condition()

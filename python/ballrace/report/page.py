@@ -46,7 +46,7 @@ pre { font-size: .8rem; overflow-x: auto }
 """
 
 _DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#$%&()*+-;/=>?@^_`{|}~"
-"""Those of :func:`base64.b85encode`, with ``/`` for the one by which a tag begins in HTML."""
+"""Digits of base 85: those of :func:`base64.b85encode`, with ``/`` for the one by which a tag begins in HTML."""
 
 _DRAW = """
 (async () => {

@@ -17,6 +17,10 @@ pub(crate) struct LinkForces;
 
 impl Force for LinkForces {
     fn name(&self) -> &'static str {
+        "cage links"
+    }
+
+    fn contribution(&self) -> &'static str {
         "cage"
     }
 

@@ -46,10 +46,6 @@ impl Force for CageRings {
         "cage"
     }
 
-    fn is_rare(&self) -> bool {
-        true
-    }
-
     fn used(&self, model: &Model) -> Use {
         Use::evaluated(model.scene.cage_ring().is_some())
     }
