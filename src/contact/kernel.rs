@@ -9,7 +9,7 @@
 
 use super::laws::elastic::{ElasticLaw, ForLaw};
 use super::laws::traction::{Rolling, Sliding};
-use super::profile::{Section, SurfacePoint, Zone};
+use super::profile::{Inclination, Section, SurfacePoint, Zone};
 use super::{Cut, FilmEffect, Law, Rules, ZoneSlices};
 use crate::simd::Number;
 
@@ -34,9 +34,9 @@ pub(super) struct Whole<T> {
 pub(super) struct Element<T> {
     /// ζ/R on the ball.
     pub sin: T,
-    /// sin α and cos α of the direction along the meridian in which it slides: of the ball's surface; on the common tangent, along
-    /// whose normal bodies approach, that of the tangent, or else approaching would rub.
-    pub slope: (T, T),
+    /// Inclination of the normal across whose meridian it slides: of the ball's surface; on the common tangent, along whose normal
+    /// bodies approach, that of the tangent, or else approaching would rub.
+    pub slope: Inclination<T>,
     /// Height of the groove over its centre there \[m\].
     pub groove: T,
     /// Penetration that the law sees, at least 0 \[m\].
@@ -126,7 +126,7 @@ impl<T: Number, R: Receiver<T>, const FMA: bool, const SYMMETRIC: bool> ForLaw
                 }
             }
             ZoneSlices::Fixed(count) if L::FLAT => {
-                let (cos, sin) = contact.section.normal;
+                let Inclination { cos, sin } = contact.section.normal;
                 let over = cos.same(1.0) / cos;
                 let length = radius * (2.0 / *count as f64) * over;
                 for (place, times) in contact.fixed_sines::<SYMMETRIC>(*count) {
@@ -154,12 +154,15 @@ pub(super) fn as_one<T: Number>(contact: &Whole<T>, stiffness: f64) -> Element<T
     let (zero, one) = (pressed.same(0.0), pressed.same(1.0));
     Element {
         sin: zero,
-        slope: (zero, one),
+        slope: Inclination {
+            cos: one,
+            sin: zero,
+        },
         groove: zero,
         depth: pressed,
         length: one,
         load: pressed * pressed.sqrt() * stiffness,
-        share: contact.section.normal,
+        share: contact.section.normal.share(),
         friction_weight: one,
     }
 }
@@ -175,7 +178,7 @@ impl<T: Number> Whole<T> {
         if SYMMETRIC {
             // tan α has no part in what the two halves add up to.
             let cos = (-u).mul_add::<FMA>(u, u.same(1.0)).sqrt();
-            return self.on_surface::<L, FMA>((u, cos, u.same(0.0)), stretch);
+            return self.on_surface::<L, FMA>(Inclination { cos, sin: u }, u.same(0.0), stretch);
         }
         let SurfacePoint {
             sin,
@@ -183,24 +186,26 @@ impl<T: Number> Whole<T> {
             tan,
             stretch: width,
         } = SurfacePoint::over::<FMA>(self.section.normal, u);
-        self.on_surface::<L, FMA>((sin, cos, tan), stretch * width)
+        self.on_surface::<L, FMA>(Inclination { cos, sin }, tan, stretch * width)
     }
 
     /// A fixed slice in whose middle the ball has sin α.
     #[inline(always)]
     fn fixed_slice<L: ElasticLaw, const FMA: bool>(&self, sin: f64, width: T) -> Element<T> {
         let cos = (1.0 - sin * sin).sqrt();
-        let place = (width.same(sin), width.same(cos), width.same(sin / cos));
-        self.on_surface::<L, FMA>(place, width)
+        let (tan, slope) = (sin / cos, Inclination { cos, sin });
+        self.on_surface::<L, FMA>(slope.map(|x| width.same(x)), width.same(tan), width)
     }
 
     /// A slice of the ball's surface.
     #[inline(always)]
     fn on_surface<L: ElasticLaw, const FMA: bool>(
         &self,
-        (sin, cos, tan): (T, T, T),
+        slope: Inclination<T>,
+        tan: T,
         width: T,
     ) -> Element<T> {
+        let Inclination { cos, sin } = slope;
         let groove = self.section.groove::<FMA>(sin);
         let depth = self
             .section
@@ -208,7 +213,7 @@ impl<T: Number> Whole<T> {
             .or_zero();
         Element {
             sin,
-            slope: (sin, cos),
+            slope,
             groove,
             depth,
             length: width,
@@ -221,17 +226,17 @@ impl<T: Number> Whole<T> {
     /// An element at u on the common tangent.
     #[inline(always)]
     pub(super) fn on_tangent<L: ElasticLaw, const FMA: bool>(&self, u: T, length: T) -> Element<T> {
-        let (normal_cos, normal_sin) = self.section.normal;
-        let sin = (u * self.inverse).mul_add::<FMA>(normal_cos, normal_sin);
+        let normal = self.section.normal;
+        let sin = (u * self.inverse).mul_add::<FMA>(normal.cos, normal.sin);
         let depth = (self.section.approach - u * u * self.half_curvature).or_zero();
         Element {
             sin,
-            slope: (normal_sin, normal_cos),
+            slope: normal,
             groove: self.section.groove::<FMA>(sin),
             depth,
             length,
             load: L::load::<T, FMA>(self.strength, depth),
-            share: self.section.normal,
+            share: normal.share(),
             friction_weight: u.same(1.0),
         }
     }
@@ -291,8 +296,8 @@ pub(super) struct ElementState<T> {
     pub share: (T, T),
     /// Weight of friction over the normal force.
     pub friction_weight: T,
-    /// sin α and cos α: the meridional direction of slip is −sin α n_e + cos α ẑ.
-    pub slope: (T, T),
+    /// The meridional direction of slip is −sin α n_e + cos α ẑ.
+    pub slope: Inclination<T>,
     /// Velocity of the ball's surface against the ring's along n_e, t_e and z \[m/s\].
     pub velocity: [T; 3],
     /// Elastic force per length \[N/m\] and penetration \[m\].
@@ -363,7 +368,7 @@ pub(super) fn force<
     let zero = approach.same(0.0);
     let (mut factor, mut bend, mut slip, mut friction) = (zero, zero, [zero; 2], [zero; 3]);
     if let Some(traction) = &law.traction {
-        let (sin, cos) = of.slope;
+        let Inclination { cos, sin } = of.slope;
         let u_m = if SYMMETRIC {
             -(v_n * sin)
         } else {
@@ -413,10 +418,11 @@ pub(super) fn force<
 #[inline(always)]
 pub(super) fn slip_of_turning<T: Number, const FMA: bool>(
     [w_n, w_t]: [T; 2],
-    (h, zeta): (T, T),
-    (sin, cos): (T, T),
+    h: T,
+    zeta: T,
+    slope: Inclination<T>,
 ) -> [T; 2] {
-    let lever = zeta.mul_add::<FMA>(sin, h * cos);
+    let lever = zeta.mul_add::<FMA>(slope.sin, h * slope.cos);
     [-(w_n * zeta), -(w_t * lever)]
 }
 

@@ -5,7 +5,7 @@
 
 use super::laws::film::FilmEffect;
 use super::laws::traction::Rolling;
-use super::profile::Section;
+use super::profile::{Inclination, Section};
 use super::{Cut, Law};
 use crate::simd::{Lanes, Number, Simd, Vector, inverse_root};
 
@@ -179,7 +179,7 @@ impl<T: Number> Slip<T> {
         } else {
             bend.same(traction.width() * traction.width())
         };
-        let (cos, sin) = section.normal;
+        let Inclination { cos, sin } = section.normal;
         let groove = section.groove::<FMA>(sin);
         let one = cos.same(1.0);
         let (inverse, over, steep) = (one / section.radius, one / section.r, one / groove);
@@ -240,7 +240,7 @@ impl<T: Number> Slip<T> {
         section: &Section<T>,
         [w_n, w_t]: [T; 2],
     ) -> Self {
-        let (cos, sin) = section.normal;
+        let Inclination { cos, sin } = section.normal;
         let middle = section.radius * sin;
         let (inverse, over) = (sin.same(1.0) / section.radius, sin.same(1.0) / section.r);
         self.along[0] = self.along[0] - w_n * middle;

@@ -13,7 +13,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::closed_form;
 use super::dual::Dual;
 use super::kernel::{self, Element, Receiver, Whole};
-use super::profile::{SHALLOW, Section, Zone};
+use super::profile::{Inclination, SHALLOW, Section, Zone};
 use super::{
     BallSide, ContactDirection, ContactForce, Motion, Pair, PointForce, Rules, Sink, V2, ZoneSlices,
 };
@@ -83,7 +83,7 @@ impl Pair {
                 if !ball.waves.is_round() {
                     // How this turns with the place is a ten-thousandth of the contact's stiffness.
                     let share = if self.law.cut().is_flat() {
-                        section.normal.0
+                        section.normal.cos
                     } else {
                         1.0
                     };
@@ -244,7 +244,7 @@ impl Pair {
         zone: &Zone<f64>,
     ) -> Meridional {
         let (l, r, radius) = (section.l, section.r, section.radius);
-        let ((cos, sin), half) = (section.normal, zone.half);
+        let (Inclination { cos, sin }, half) = (section.normal, zone.half);
         // ∂half/∂l over half; the chord's height is R − sum with sum = (l + 2R + (R² − r²)/l)/2.
         let sum_rate = 0.5 * (1.0 - (radius * radius - r * r) / (l * l));
         let half_rate = zone.height * sum_rate / (half * half);
@@ -333,7 +333,7 @@ struct Meridional {
 
 /// Derivatives by e and c from those by the distance l and the normal's angle α': e = l cos α', c = −l sin α'.
 fn by_axes(section: &Section<f64>, by_distance: [f64; 2], by_angle: [f64; 2]) -> [[f64; 2]; 2] {
-    let (cos, sin) = section.normal;
+    let Inclination { cos, sin } = section.normal;
     [0, 1].map(|i| {
         let turn = by_angle[i] / section.l;
         [

@@ -135,7 +135,7 @@ pub fn explain(scene: &Scene) -> Result<Explanation> {
         kept: reduction.as_ref().map_or(model.dim(), Reduction::dim),
         omissions: listed(reduction.as_ref(), Reduction::omissions),
         obstacles: if model.is_spatial() && reduction.is_none() {
-            Reduction::in_space(&model, (0.0, &y0))
+            Reduction::in_space(&model, 0.0, &y0)
                 .err()
                 .unwrap_or_default()
         } else {

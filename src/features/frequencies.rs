@@ -47,7 +47,8 @@ impl FaultFrequencies {
     pub fn rolling(row: &RowGeometry, [outer, inner]: [f64; 2]) -> Self {
         let (orders, shaft) = (row.orders(), inner - outer);
         Self::of(
-            (outer + orders.ftf * shaft, orders.bsf * shaft),
+            outer + orders.ftf * shaft,
+            orders.bsf * shaft,
             row.ball_count,
             [outer, inner],
             row.contact_angle,
@@ -58,7 +59,7 @@ impl FaultFrequencies {
     ///
     /// f_c = f_o + ½ (1 − γ)(f_i − f_o), f_BPFO = Z |f_c − f_o|, f_BPFI = Z |f_i − f_c| where balls roll (Harris & Kotzalas, Essential
     /// Concepts of Bearing Technology, both rings turning).
-    fn of((cage, spin): (f64, f64), balls: f64, [outer, inner]: [f64; 2], angle: f64) -> Self {
+    fn of(cage: f64, spin: f64, balls: f64, [outer, inner]: [f64; 2], angle: f64) -> Self {
         Self {
             shaft: (inner - outer).abs(),
             ftf: cage.abs(),
@@ -88,7 +89,8 @@ impl FaultFrequencies {
         Self {
             slip: Some(1.0 - advance),
             ..Self::of(
-                (cage, spin.unwrap_or(self.bsf)),
+                cage,
+                spin.unwrap_or(self.bsf),
                 balls,
                 [outer, inner],
                 self.contact_angle,
@@ -159,7 +161,8 @@ pub fn frequencies_at(
         Some(rolls) => {
             let own = if is_free { 1.0 } else { rolls.angle.cos() };
             FaultFrequencies::of(
-                (rolls.cage, own * rolls.spin),
+                rolls.cage,
+                own * rolls.spin,
                 geometry.ball_count,
                 [outer, inner],
                 rolls.angle,

@@ -63,17 +63,25 @@ pub(super) fn faults(row: &Row, did: Option<&RowKinematics>, turns: RingTurns) -
     ]
 }
 
+/// A bearing's record, of whose signals lines are sought.
+pub(super) struct LineSearch<'a> {
+    pub rows: &'a [Row],
+    pub kinematics: &'a [RowKinematics],
+    pub turns: RingTurns,
+    /// Absent where its speed is not known.
+    pub shaft: Option<&'a Shaft>,
+    /// Sampling rate, and the band of the envelope \[Hz\].
+    pub fs: f64,
+    pub band: Option<[f64; 2]>,
+    /// Whether the record is long and steady enough for standard errors.
+    pub certain: bool,
+}
+
 /// Lines of a signal and of its squared envelope at the frequencies of every row; without values where the speed of the
-/// shaft is not known. Their standard errors have a value where `certain`: where the record is long and steady enough.
-pub(super) fn of(
-    name: &str,
-    x: &[f64],
-    (fs, band): (f64, Option<[f64; 2]>),
-    shaft: Option<&Shaft>,
-    (rows, kinematics, turns): (&[Row], &[RowKinematics], RingTurns),
-    certain: bool,
-) -> Vec<Feature> {
-    let spectra = shaft.map(|shaft| {
+/// shaft is not known.
+pub(super) fn of(name: &str, x: &[f64], search: &LineSearch<'_>) -> Vec<Feature> {
+    let &LineSearch { fs, band, .. } = search;
+    let spectra = search.shaft.map(|shaft| {
         let envelope = squared_envelope(x, fs, band);
         let spectrum = |x: &[f64]| {
             let (x, rate) = shaft.by_angle(x, fs);
@@ -83,9 +91,9 @@ pub(super) fn of(
         [spectrum(x), spectrum(&envelope)]
     });
     let mut found = Vec::new();
-    for (row, of) in rows.iter().enumerate() {
-        let did = kinematics.iter().find(|did| did.row == row);
-        for fault in faults(of, did, turns) {
+    for (row, of) in search.rows.iter().enumerate() {
+        let did = search.kinematics.iter().find(|did| did.row == row);
+        for fault in faults(of, did, search.turns) {
             for (i, suffix) in ["", "_envelope"].into_iter().enumerate() {
                 let lines = spectra.as_ref().map(|spectra| {
                     let (spectrum, shaft, bin) = &spectra[i];
@@ -96,7 +104,7 @@ pub(super) fn of(
                     lines.flatten().as_ref(),
                     &prefix,
                     &fault,
-                    certain,
+                    search.certain,
                 ));
             }
         }
@@ -202,16 +210,22 @@ mod tests {
         presets::deep_groove_6205(500.0, 0.0, 1800.0)
     }
 
-    fn lines(scene: &Scene, x: &[f64], fs: f64) -> impl Fn(&str) -> Option<f64> + use<> {
+    fn features(scene: &Scene, x: &[f64], fs: f64) -> Vec<Feature> {
         let shaft = Shaft::of(scene, 0.0, x.len(), fs);
-        let found = of(
-            "x",
-            x,
-            (fs, None),
-            shaft.as_ref(),
-            (&scene.rows, &[], RingTurns::INNER),
-            true,
-        );
+        let search = LineSearch {
+            rows: &scene.rows,
+            kinematics: &[],
+            turns: RingTurns::INNER,
+            shaft: shaft.as_ref(),
+            fs,
+            band: None,
+            certain: true,
+        };
+        of("x", x, &search)
+    }
+
+    fn lines(scene: &Scene, x: &[f64], fs: f64) -> impl Fn(&str) -> Option<f64> + use<> {
+        let found = features(scene, x, fs);
         move |name: &str| {
             let wanted = format!("x.row0.{name}");
             let feature = found.iter().find(|feature| feature.name == wanted);
@@ -232,16 +246,7 @@ mod tests {
     /// A record too short for a line has none, and says so for every name.
     #[test]
     fn a_short_record_has_no_lines() {
-        let scene = scene();
-        let shaft = Shaft::of(&scene, 0.0, 50, 50e3);
-        let found = of(
-            "x",
-            &[1.0; 50],
-            (50e3, None),
-            shaft.as_ref(),
-            (&scene.rows, &[], RingTurns::INNER),
-            true,
-        );
+        let found = features(&scene(), &[1.0; 50], 50e3);
         assert_eq!(found.len(), 2 * 2 * (2 + 2 + 3 + 3));
         assert!(found.iter().all(|f| f.value.is_none()));
     }

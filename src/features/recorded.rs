@@ -186,14 +186,16 @@ impl<'a> Analysis<'a> {
         };
         let mut found = moments::of(name, x, Some(&self.batches));
         let shaft = self.shaft.as_ref();
-        found.extend(lines::of(
-            name,
-            x,
-            (self.fs, self.band),
+        let search = lines::LineSearch {
+            rows: &scene.rows,
+            kinematics: self.kinematics,
+            turns: self.ring_turns,
             shaft,
-            (&scene.rows, self.kinematics, self.ring_turns),
-            self.batches.count() > 0,
-        ));
+            fs: self.fs,
+            band: self.band,
+            certain: self.batches.count() > 0,
+        };
+        found.extend(lines::of(name, x, &search));
         if let Some(first) = shaft.map(Shaft::first).filter(|first| *first > 0) {
             let from = self.start + first as f64 / self.fs;
             found.push(Feature::new(named(name, "lines_from"), from));

@@ -31,7 +31,7 @@ impl Force for Outside {
         for (path, force) in model.scene.forces_of_motion() {
             let race = Race::from(force.ring());
             let motion = motion(at.state, race);
-            sums.add(race, &wrench((&path, force), at.t, &motion));
+            sums.add(race, &wrench(&path, force, at.t, &motion));
         }
     }
 
@@ -39,7 +39,7 @@ impl Force for Outside {
         let mut sum = RingWrench::default();
         let each = model.scene.forces_of_motion();
         for (path, force) in each.filter(|(_, force)| Race::from(force.ring()) == race) {
-            let found = wrench((&path, force), 0.0, ring);
+            let found = wrench(&path, force, 0.0, ring);
             sum.force += found.force;
             sum.moment += found.moment;
         }
@@ -110,7 +110,7 @@ fn motion(state: &State, race: Race) -> RingMotion {
 }
 
 /// Wrench of a force, by its path in the scene, at a time \[s\].
-fn wrench((path, force): (&str, &dyn RingForce), t: f64, motion: &RingMotion) -> RingWrench {
+fn wrench(path: &str, force: &dyn RingForce, t: f64, motion: &RingMotion) -> RingWrench {
     let found = blame::called(path, t, || force.wrench(t, motion));
     blame::judge(path, t, &found);
     let [x, y, z, mx, my, mz] = found;

@@ -85,7 +85,8 @@ impl<S: LinearlyImplicit> StepMethod<S> for Adams {
         &self,
         work: &mut Stepper<'_>,
         system: &mut S,
-        (_, t1): (f64, f64),
+        _t: f64,
+        t1: f64,
         h: f64,
         latest: f64,
     ) -> Result<(), usize> {

@@ -21,7 +21,8 @@ pub(super) enum Weights<'a> {
 #[derive(Clone, Copy)]
 pub struct DenseStep<'a> {
     weights: Weights<'a>,
-    span: (f64, f64),
+    t0: f64,
+    t1: f64,
     h: f64,
     y0: &'a [f64],
     y1: &'a [f64],
@@ -31,7 +32,8 @@ pub struct DenseStep<'a> {
 impl<'a> DenseStep<'a> {
     pub(super) fn new(
         weights: Weights<'a>,
-        span: (f64, f64),
+        t0: f64,
+        t1: f64,
         h: f64,
         y0: &'a [f64],
         y1: &'a [f64],
@@ -39,7 +41,8 @@ impl<'a> DenseStep<'a> {
     ) -> Self {
         Self {
             weights,
-            span,
+            t0,
+            t1,
             h,
             y0,
             y1,
@@ -50,13 +53,13 @@ impl<'a> DenseStep<'a> {
     /// Time at the start of the step.
     #[must_use]
     pub fn t0(&self) -> f64 {
-        self.span.0
+        self.t0
     }
 
     /// Time at the end of the step; exactly the breakpoint, if it ends on one.
     #[must_use]
     pub fn t1(&self) -> f64 {
-        self.span.1
+        self.t1
     }
 
     /// The step size; `t1 − t0` but for the rounding of the times.
@@ -127,7 +130,8 @@ impl<'a> DenseStep<'a> {
 impl fmt::Debug for DenseStep<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("DenseStep")
-            .field("span", &self.span)
+            .field("t0", &self.t0)
+            .field("t1", &self.t1)
             .field("h", &self.h)
             .finish_non_exhaustive()
     }

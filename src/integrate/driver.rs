@@ -247,7 +247,7 @@ impl<'a> Integrator<'a> {
             } else {
                 self.clock.advanced(plan.h)
             };
-            let error = self.attempt(system, method, (t, end.now()), plan.h, stop);
+            let error = self.attempt(system, method, t, end.now(), plan.h, stop);
             if !self.keeps(t, &plan, error)? {
                 continue;
             }
@@ -268,12 +268,13 @@ impl<'a> Integrator<'a> {
         &mut self,
         system: &mut S,
         method: &M,
-        span: (f64, f64),
+        t: f64,
+        t1: f64,
         h: f64,
         stop: Stop,
     ) -> Worst {
         let work = &mut self.work;
-        match method.attempt(work, system, span, h, stop.latest()) {
+        match method.attempt(work, system, t, t1, h, stop.latest()) {
             Ok(()) => self.norm.measure(&work.y, &work.y1, &work.error),
             Err(i) => no_error(self.tolerance.group_of(i)),
         }

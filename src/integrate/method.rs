@@ -46,7 +46,8 @@ pub trait StepMethod<S>: Sealed {
         &self,
         work: &mut Stepper<'_>,
         system: &mut S,
-        span: (f64, f64),
+        t: f64,
+        t1: f64,
         h: f64,
         latest: f64,
     ) -> Result<(), usize>;
@@ -75,10 +76,11 @@ impl<S: System> StepMethod<S> for Tableau {
         &self,
         work: &mut Stepper<'_>,
         system: &mut S,
-        span: (f64, f64),
+        t: f64,
+        t1: f64,
         h: f64,
         latest: f64,
     ) -> Result<(), usize> {
-        work.attempt(system, span, h, latest)
+        work.attempt(system, t, t1, h, latest)
     }
 }

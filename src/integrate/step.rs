@@ -71,7 +71,8 @@ impl<'a> Stepper<'a> {
     pub(super) fn attempt<S: System>(
         &mut self,
         system: &mut S,
-        (t, t1): (f64, f64),
+        t: f64,
+        t1: f64,
         h: f64,
         latest: f64,
     ) -> Result<(), usize> {
@@ -120,7 +121,7 @@ impl<'a> Stepper<'a> {
             Some(history) => Weights::OfAccelerations(&history.formulae.weights),
             None => Weights::OfDerivatives(self.tableau.dense),
         };
-        DenseStep::new(weights, (t0, t1), h, &self.y, &self.y1, &self.k)
+        DenseStep::new(weights, t0, t1, h, &self.y, &self.y1, &self.k)
     }
 
     /// Whether all vectors are as long as a system has states.

@@ -77,12 +77,7 @@ pub(crate) struct Land {
 
 impl CageModel {
     /// Cage of a row by its number, whose balls have a mass \[kg\].
-    pub fn new(
-        scene: &Scene,
-        ring: &CageRing,
-        (index, row): (usize, &Row),
-        ball_mass: f64,
-    ) -> Self {
+    pub fn new(scene: &Scene, ring: &CageRing, index: usize, row: &Row, ball_mass: f64) -> Self {
         let d = row.ball_diameter;
         let radius = row.pitch_diameter / 2.0;
         let mass = ring.mass(row);
@@ -201,7 +196,7 @@ mod tests {
     fn defaults_of_a_6205() {
         let scene = presets::deep_groove_6205(500.0, 0.0, 1797.0);
         let ball = 7800.0 * PI / 6.0 * 7.94e-3_f64.powi(3);
-        let cage = CageModel::new(&scene, &CageRing::default(), (0, &scene.rows[0]), ball);
+        let cage = CageModel::new(&scene, &CageRing::default(), 0, &scene.rows[0], ball);
         assert!((cage.mass - 8.0e-3).abs() < 0.2e-3, "{}", cage.mass);
         assert!((cage.clearance - 50e-6).abs() < 1e-6);
         assert!((cage.stiffness - 3e5).abs() < 3e3);

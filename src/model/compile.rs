@@ -52,7 +52,7 @@ pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
             drag: 0.0,
             cage: scene.cage_ring().map(|ring| {
                 let (ball, _) = ball_mass(scene, row, row.ball_diameter);
-                Box::new(CageModel::new(scene, ring, (i, row), ball))
+                Box::new(CageModel::new(scene, ring, i, row, ball))
             }),
         });
         for index in 0..row.ball_count {

@@ -33,7 +33,7 @@ impl Driven {
 
 impl Course {
     /// A course at a constant speed, at a place at a time.
-    pub fn steady((t, place): (f64, f64), speed: f64) -> Self {
+    pub fn steady(t: f64, place: f64, speed: f64) -> Self {
         Self {
             place: place - speed * t,
             speed,
@@ -42,7 +42,7 @@ impl Course {
     }
 
     /// A course at a place at a time, with a speed that changes with shares of those of outer and inner ring.
-    pub fn driven((t, place): (f64, f64), speed: f64, shares: [f64; 2], scene: &Scene) -> Self {
+    pub fn driven(t: f64, place: f64, speed: f64, shares: [f64; 2], scene: &Scene) -> Self {
         let of_ring = |(ring, share)| match scene.given_speed(ring)? {
             TimeFunction::Constant(_) => None,
             speed => Some(Driven {
@@ -65,14 +65,14 @@ impl Course {
 
     /// A course in proportion to the rings' speed against each other, seen from the outer ring: as at that time, or by a given share where
     /// they then turn as one.
-    pub fn geared(from: (f64, f64), speed: f64, at_rest: f64, scene: &Scene) -> Self {
-        let [outer, inner] = scene.ring_speeds(from.0);
+    pub fn geared(t: f64, place: f64, speed: f64, at_rest: f64, scene: &Scene) -> Self {
+        let [outer, inner] = scene.ring_speeds(t);
         let share = if inner == outer {
             at_rest
         } else {
             (speed - outer) / (inner - outer)
         };
-        Self::driven(from, speed, [1.0 - share, share], scene)
+        Self::driven(t, place, speed, [1.0 - share, share], scene)
     }
 
     /// Whether the body ever leaves its place.
@@ -145,7 +145,7 @@ impl Turn {
 impl Orbit {
     /// The course from a start, a state of all bodies: as fast as the balls of the row are in the mean, and in proportion to the
     /// rings. `at` is the place of the first radius among the states, if they are.
-    pub fn of(model: &Model, row: usize, (t, start): (f64, &[f64]), at: Option<usize>) -> Self {
+    pub fn of(model: &Model, row: usize, t: f64, start: &[f64], at: Option<usize>) -> Self {
         let layout = model.layout();
         let balls = model.rows[row].balls();
         let starts = balls
@@ -161,12 +161,7 @@ impl Orbit {
             first: model.rows[row].first_body(),
             starts,
             at,
-            course: Course::geared(
-                (t, 0.0),
-                model.orbit_speed(row, start),
-                at_rest,
-                &model.scene,
-            ),
+            course: Course::geared(t, 0.0, model.orbit_speed(row, start), at_rest, &model.scene),
         }
     }
 

@@ -111,8 +111,10 @@ impl Grounds {
     pub fn course(
         &self,
         model: &Model,
-        (t, start): (f64, &[f64]),
-        (body, dof): (BodyId, Dof),
+        t: f64,
+        start: &[f64],
+        body: BodyId,
+        dof: Dof,
         reason: Reason,
     ) -> Option<Course> {
         let layout = model.layout();
@@ -120,27 +122,27 @@ impl Grounds {
             start[layout.at(body, dof)],
             start[layout.speed_at(body, dof)],
         );
-        let (scene, at) = (&model.scene, |place: f64| (t, place));
+        let scene = &model.scene;
         match (reason, dof) {
             (Reason::Copy, _) | (Reason::Rolling, Dof::Y) => None,
             (Reason::Idle, Dof::X | Dof::Y) if layout.as_ball(body).is_some() => None,
-            (Reason::Mirror, _) => Some(Course::steady(at(model.bodies[body].nominal[dof]), 0.0)),
+            (Reason::Mirror, _) => Some(Course::steady(t, model.bodies[body].nominal[dof], 0.0)),
             (Reason::AxiallyFixed, _) => {
                 let places = self.axial_places.as_ref()?;
-                Some(Course::steady(at(places.of(model, body)), 0.0))
+                Some(Course::steady(t, places.of(model, body), 0.0))
             }
             // The cage of a row that is left out turns on.
-            (Reason::Idle, Dof::X | Dof::Y | Dof::Z) => Some(Course::steady(at(place), 0.0)),
+            (Reason::Idle, Dof::X | Dof::Y | Dof::Z) => Some(Course::steady(t, place, 0.0)),
             (Reason::Driven(of), _) => {
                 let follows = Race::BOTH.map(|race| f64::from(race == of));
-                Some(Course::driven(at(place), speed, follows, scene))
+                Some(Course::driven(t, place, speed, follows, scene))
             }
             (Reason::Rolling, _) => {
                 let row = model.balls[layout.as_ball(body)?].row;
                 let (_, at_rest) = model.rolling_shares(row);
-                Some(Course::geared(at(place), speed, at_rest, scene))
+                Some(Course::geared(t, place, speed, at_rest, scene))
             }
-            _ => Some(Course::steady(at(place), speed)),
+            _ => Some(Course::steady(t, place, speed)),
         }
     }
 }

@@ -135,27 +135,25 @@ impl Reduction {
     /// # Panics
     /// If the length of `start` is wrong.
     pub fn of(model: &Model, start: &[f64]) -> Option<Self> {
-        Self::since(model, (0.0, start))
+        Self::since(model, 0.0, start)
     }
 
     /// The reduction as of [`Self::of`], of a run that goes on from a state at a time \[s\].
-    pub(crate) fn since(model: &Model, from: (f64, &[f64])) -> Option<Self> {
-        let (_, start) = from;
+    pub(crate) fn since(model: &Model, t: f64, start: &[f64]) -> Option<Self> {
         assert_eq!(start.len(), model.dim(), "length of the state");
         let solver = &model.scene.solver;
         if !model.is_spatial() {
-            return Some(Self::leaving_out(model, from, solver.reduce));
+            return Some(Self::leaving_out(model, t, start, solver.reduce));
         }
         if !solver.reduce {
             return None;
         }
-        Self::in_space(model, from).ok()
+        Self::in_space(model, t, start).ok()
     }
 
     /// Leaves out what is given up by request and, if `exact` reductions are wanted, what does not change the motion
     /// from a state of all bodies at a time.
-    fn leaving_out(model: &Model, from: (f64, &[f64]), exact: bool) -> Self {
-        let (_, start) = from;
+    fn leaving_out(model: &Model, t: f64, start: &[f64], exact: bool) -> Self {
         let mut reduction = Self::none(model);
         let mut obstacle = |what: &str, reason: String| {
             let what = what.to_owned();
@@ -202,12 +200,12 @@ impl Reduction {
             None if grounds.mirrored => 0..1,
             None => 0..model.rows.len(),
         };
-        reduction.leave_out(model, from, &grounds);
+        reduction.leave_out(model, t, start, &grounds);
         reduction.axial_places = grounds.axial_places;
         reduction
     }
 
-    fn leave_out(&mut self, model: &Model, from: (f64, &[f64]), grounds: &Grounds) {
+    fn leave_out(&mut self, model: &Model, t: f64, start: &[f64], grounds: &Grounds) {
         let layout = model.layout();
         let reasons: Vec<[Option<Reason>; DOFS]> = layout
             .bodies()
@@ -233,7 +231,7 @@ impl Reduction {
             let Some(reason) = reasons[body][dof] else {
                 continue;
             };
-            let Some(course) = grounds.course(model, from, (body, dof), reason) else {
+            let Some(course) = grounds.course(model, t, start, body, dof, reason) else {
                 continue;
             };
             let prescribed = Prescribed { body, dof, course };
@@ -247,7 +245,7 @@ impl Reduction {
             let copy = grounds.mirrored && row == 1;
             if idle || model.scene.approximations.rolling && !copy {
                 let at = self.place(model.rows[row].first_body(), Dof::X);
-                self.orbits.push(Orbit::of(model, row, from, at));
+                self.orbits.push(Orbit::of(model, row, t, start, at));
             }
         }
     }

@@ -11,9 +11,8 @@ impl Reduction {
     ///
     /// # Errors
     /// What stands against it.
-    pub(crate) fn in_space(model: &Model, from: (f64, &[f64])) -> Result<Self, Vec<Obstacle>> {
-        let mut found = Self::leaving_out(model, from, true);
-        let (_, start) = from;
+    pub(crate) fn in_space(model: &Model, t: f64, start: &[f64]) -> Result<Self, Vec<Obstacle>> {
+        let mut found = Self::leaving_out(model, t, start, true);
         // Balls of two rows that are images of each other may spin differently.
         let is_flat = found.plane || found.mirrored && !model.balls_turn();
         let against = against(model, start, found.mirrored);
@@ -23,7 +22,7 @@ impl Reduction {
         let before = found.prescribed.len();
         for (body, dof) in model.layout().degrees() {
             if !Dof::ALL.contains(&dof) {
-                let course = Course::steady((0.0, 0.0), 0.0);
+                let course = Course::steady(0.0, 0.0, 0.0);
                 found.prescribed.push(Prescribed { body, dof, course });
             }
         }

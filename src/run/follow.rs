@@ -221,7 +221,7 @@ impl Trajectory {
             truncated_contacts: self.truncated,
             wall_time: self.wall_time,
             nfev_past_end: self.nfev_past_end,
-            ..statistics(model, &self.stats, (&self.first, &self.last))
+            ..statistics(model, &self.stats, &self.first, &self.last)
         }
     }
 }
@@ -346,7 +346,8 @@ impl Follower<'_, '_, '_> {
 fn statistics(
     model: &Model,
     stats: &integrate::StepStatistics,
-    (first, last): (&[f64], &[f64]),
+    first: &[f64],
+    last: &[f64],
 ) -> Statistics {
     let share = |steps: usize| steps as f64 / stats.accepted.max(1) as f64;
     Statistics {

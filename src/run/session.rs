@@ -98,7 +98,7 @@ impl<'s> Session<'s> {
         keep: Keep<'s>,
     ) -> Result<Self> {
         let (from, first) = (trajectory.begins(), trajectory.first());
-        let reduction = Reduction::since(&model, (from, first));
+        let reduction = Reduction::since(&model, from, first);
         let mut recorder = Recorder::new(&model, sampling, run.samples()?, keep);
         recorder.prepare(&Dynamics::begin(&model, reduction.as_ref(), first), first)?;
         Ok(Self {
@@ -245,7 +245,7 @@ impl<'s> Session<'s> {
         }
         self.earlier = Some(self.statistics());
         self.options = options(&model);
-        self.reduction = Reduction::since(&model, (time, &y));
+        self.reduction = Reduction::since(&model, time, &y);
         let dynamics = Dynamics::begin(&model, self.reduction.as_ref(), &y);
         self.recorder.change(&dynamics, &y);
         self.trajectory = self.trajectory.after(&model, y, self.options.max_step);

@@ -99,7 +99,7 @@ pub(crate) fn settle(
             ..options(model)
         };
         let from = last.as_ref().map_or(0.0, Trajectory::time);
-        let reduction = Reduction::since(model, (from, &y));
+        let reduction = Reduction::since(model, from, &y);
         let dynamics = Dynamics::begin(model, reduction.as_ref(), &y);
         let mut settling = match last {
             None => Trajectory::new(model, y, interval, options.max_step),

@@ -69,9 +69,9 @@ pub(super) fn advance(model: &Model, y: &mut [f64]) {
         return;
     };
     for row in model.rows.iter().filter(|row| row.count > 2) {
-        if let Some(loose) = Loose::of(model, y, (row, cage)) {
+        if let Some(loose) = Loose::of(model, y, row, cage) {
             let angle =
-                loose.way(model, y, (row, cage)) / (row.cage_distance / TAU * row.count as f64);
+                loose.way(model, y, row, cage) / (row.cage_distance / TAU * row.count as f64);
             for &j in &loose.balls {
                 turn(model, y, BodyId::ball(j), angle);
                 scale_speed(model, y, BodyId::ball(j), loose.apart / loose.close);
@@ -93,7 +93,7 @@ struct Loose {
 
 impl Loose {
     /// The fallen balls; none where a row has no two balls of either kind that follow each other, or has loose ones in several places.
-    fn of(model: &Model, y: &[f64], (row, cage): (&RowModel, &CageLinks)) -> Option<Self> {
+    fn of(model: &Model, y: &[f64], row: &RowModel, cage: &CageLinks) -> Option<Self> {
         let mut balls: Vec<usize> = row.balls().collect();
         if orbit(model, row) < 0.0 {
             balls.reverse();
@@ -128,7 +128,7 @@ impl Loose {
     ///
     /// When one of them comes into the load, the link behind it is as long as theirs; until the next one does, it becomes as long as those in
     /// the load.
-    fn way(&self, model: &Model, y: &[f64], (row, cage): (&RowModel, &CageLinks)) -> f64 {
+    fn way(&self, model: &Model, y: &[f64], row: &RowModel, cage: &CageLinks) -> f64 {
         let [gap, pressed] = self.ahead.map(|j| deflection(model, y, j, Race::Inner));
         let share = pressed / (pressed - gap);
         let wanted = self.apart + share * (self.close - self.apart);
@@ -226,7 +226,7 @@ mod tests {
         let y = from_equilibrium(&model, Spacing::Fallen).unwrap();
         let row = &model.rows[0];
         let cage = model.scene.cage_links().unwrap();
-        let (loose, half) = (Loose::of(&model, &y, (row, cage)).unwrap(), cage.play / 2.0);
+        let (loose, half) = (Loose::of(&model, &y, row, cage).unwrap(), cage.play / 2.0);
         for (a, b) in row.links() {
             let longer = distance(&model, &y, [a, b]) - row.cage_distance;
             assert!(longer.abs() < half * (1.0 + 1e-6), "{a} {b}: {longer:e}");

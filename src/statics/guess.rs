@@ -63,7 +63,7 @@ impl Problem<'_> {
                 let own = unit * unit.transpose() * (slope - aside) + plane * aside;
                 tied += own;
                 if self.model.tilts() {
-                    self.add_tilt((j, rings), (&pressed, &own), (&mut forces, &mut stiffness));
+                    self.add_tilt(j, rings, &pressed, &own, &mut forces, &mut stiffness);
                 }
             }
         }
@@ -86,9 +86,12 @@ impl Problem<'_> {
     /// stiffness against places is there already.
     fn add_tilt(
         &self,
-        (j, rings): (usize, &Rings),
-        (pressed, own): (&Vector3<f64>, &Matrix3<f64>),
-        (forces, stiffness): (&mut Rings, &mut RingStiffness),
+        j: usize,
+        rings: &Rings,
+        pressed: &Vector3<f64>,
+        own: &Matrix3<f64>,
+        forces: &mut Rings,
+        stiffness: &mut RingStiffness,
     ) {
         let [x, y, z, _] = self.model.bodies[BodyId::ball(j)].nominal;
         let arms = Race::BOTH.map(|race| self.arm(rings, race, &Vector3::new(x, y, z)));

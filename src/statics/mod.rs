@@ -216,13 +216,13 @@ fn solved(scene: &Scene, control: RaceControl) -> Result<Equilibrium> {
 /// places, those of the equilibrium with balls that move along z are taken, and the rest balances anew: balls that
 /// share one place would otherwise be pressed more or less than they bear.
 pub(crate) fn positions(model: &Model) -> Result<Vec<f64>> {
-    in_place(model, (RaceControl::Friction, Spacing::Equal)).map(|solved| solved.y)
+    in_place(model, RaceControl::Friction, Spacing::Equal).map(|solved| solved.y)
 }
 
 /// The same with the speeds of all bodies: of balls that run fast those at which they go on as they stand there, of others those at which
 /// they roll at their contact angles, which are next to them.
 pub(crate) fn in_motion(model: &Model, control: RaceControl, spacing: Spacing) -> Result<Vec<f64>> {
-    let Solved { mut y, speeds, .. } = in_place(model, (control, spacing))?;
+    let Solved { mut y, speeds, .. } = in_place(model, control, spacing)?;
     if speeds.is_empty() {
         rolling::at_contacts(model, control, &mut y);
     } else {
@@ -238,7 +238,7 @@ pub(crate) fn in_motion(model: &Model, control: RaceControl, spacing: Spacing) -
     Ok(y)
 }
 
-fn in_place(model: &Model, (control, spacing): (RaceControl, Spacing)) -> Result<Solved> {
+fn in_place(model: &Model, control: RaceControl, spacing: Spacing) -> Result<Solved> {
     let solved = solve_with(|| Problem::new(model).controlled(control).spaced(spacing))?;
     let Some(axial_places) = axial_places(model, &solved.y) else {
         return Ok(solved);

@@ -251,8 +251,13 @@ impl<const N: usize> BodyMatrix<N> {
         let along = degrees.filter(|(at, _)| !is_radius(*at));
         Box::new(Self {
             matrix: ContactMatrix::new(model, dynamics.rows_in_motion()),
-            corrected: along.filter_map(Velocity::of).collect(),
-            radial: radii.iter().map(Radial::new).collect(),
+            corrected: along
+                .filter_map(|(at, (body, dof))| Velocity::of(at, body, dof))
+                .collect(),
+            radial: radii
+                .iter()
+                .map(|(at, ball)| Radial::new(*at, *ball))
+                .collect(),
             full,
             state,
             rings: RingView::both(model).filter(|_| dynamics.tilts()),
@@ -282,10 +287,10 @@ impl<const N: usize> BodyMatrix<N> {
 }
 
 impl Radial {
-    fn new((at, ball): &(usize, BodyId)) -> Self {
+    fn new(at: usize, ball: BodyId) -> Self {
         Self {
-            at: *at,
-            ball: *ball,
+            at,
+            ball,
             direction: [1.0, 0.0],
         }
     }

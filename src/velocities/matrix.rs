@@ -152,7 +152,7 @@ pub(super) struct Velocity {
 
 impl Velocity {
     /// The velocity of a direction, of which there is none for the rates of Euler parameters: they follow from how a ball turns.
-    pub fn of((at, (body, dof)): (usize, (BodyId, Dof))) -> Option<Self> {
+    pub fn of(at: usize, body: BodyId, dof: Dof) -> Option<Self> {
         let place = match dof {
             Dof::TiltX | Dof::TurnX => AXIAL,
             Dof::TiltY | Dof::TurnY => AXIAL + 1,

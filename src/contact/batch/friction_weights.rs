@@ -14,57 +14,59 @@ use crate::simd::{InstructionSet, LANES, Lanes, Simd, Vector, Wide};
 #[derive(Debug, Clone, Default)]
 pub(crate) struct FrictionWeights(Vec<Lanes>);
 
-impl FrictionWeights {
-    /// Weights of friction over the normal force at the nodes of whole zones, which have their middle at u = 0 if not elsewhere \[m\];
-    /// none where both weigh the same.
+impl Pair {
+    /// Slip along the zones of eight contacts, of which nodes' weights are made; none where friction weighs as the normal force does.
     #[inline(always)]
-    pub(in crate::contact) fn at_nodes<const FMA: bool>(
-        &mut self,
-        instructions: InstructionSet,
-        pair: &Pair,
+    pub(in crate::contact) fn slip<const FMA: bool>(
+        &self,
         sigma: Lanes,
         whole: &Whole<Lanes>,
         moves: &Moves<Lanes>,
-        middle: Option<Lanes>,
-    ) -> Option<&[Lanes]> {
-        let turning = [Lanes::ZERO; 2];
-        self.at_nodes_turning::<FMA, false>(
-            instructions,
-            (pair, sigma),
-            whole,
-            (moves, turning),
-            middle,
-        )
+    ) -> Option<Slip<Lanes>> {
+        self.halves()?;
+        Slip::along::<FMA>(&self.law, sigma, &whole.section, moves)
     }
 
-    /// The same, with angular velocities along n_e and t_e where balls before a ring that may tilt have some \[rad/s\].
+    /// The same of balls before a ring that may tilt, with angular velocities along n_e and t_e \[rad/s\].
     #[inline(always)]
-    pub(in crate::contact) fn at_nodes_turning<const FMA: bool, const TILTED: bool>(
+    pub(in crate::contact) fn slip_tilted<const FMA: bool>(
+        &self,
+        sigma: Lanes,
+        whole: &Whole<Lanes>,
+        moves: &Moves<Lanes>,
+        turning: Across,
+    ) -> Option<Slip<Lanes>> {
+        let slip = self.slip::<FMA>(sigma, whole, moves)?;
+        Some(slip.turning_across::<FMA>(&self.law, &whole.section, turning))
+    }
+
+    fn halves(&self) -> Option<&Halves> {
+        match &self.slices {
+            ZoneSlices::Fitted(rules) => rules.halves(),
+            ZoneSlices::Fixed(_) => None,
+        }
+    }
+}
+
+impl FrictionWeights {
+    /// Weights of friction over the normal force at the nodes of whole zones, which reach `half` to both sides of u = 0 \[m\]; none
+    /// without a slip.
+    #[inline(always)]
+    pub(in crate::contact) fn at_nodes(
         &mut self,
         instructions: InstructionSet,
-        (pair, sigma): (&Pair, Lanes),
-        whole: &Whole<Lanes>,
-        (moves, turning): (&Moves<Lanes>, Across),
-        middle: Option<Lanes>,
+        pair: &Pair,
+        slip: Option<&Slip<Lanes>>,
+        half: &Lanes,
     ) -> Option<&[Lanes]> {
-        let ZoneSlices::Fitted(rules) = &pair.slices else {
-            return None;
-        };
-        let halves = rules.halves()?;
-        let mut slip = Slip::along::<FMA>(&pair.law, sigma, &whole.section, moves)?;
-        if TILTED {
-            slip = slip.turning_across::<FMA>(&pair.law, &whole.section, turning);
-        }
-        if let Some(middle) = middle {
-            slip = slip.from::<FMA>(middle);
-        }
+        let (slip, halves) = (slip?, pair.halves()?);
         self.0.clear();
-        self.0.resize(rules.count(), Lanes::ZERO);
+        self.0.resize(pair.slices.count() as usize, Lanes::ZERO);
         // A program of its own: taken into those that sum forces it would be compiled for each of them.
         instructions.run_wide(Weigh {
             halves,
-            slip: &slip,
-            half: &whole.half,
+            slip,
+            half,
             to: &mut self.0,
         });
         Some(&self.0)

@@ -18,7 +18,7 @@ pub(crate) use gather::{Across, Constants, EightContacts, Places, RingLanes};
 use super::kernel::{self, Element, ElementForce, ElementState, Receiver, Whole};
 use super::laws::traction::Rolling;
 use super::oil::RollingResistance;
-use super::profile::{SHALLOW, Section, Zone};
+use super::profile::{Inclination, SHALLOW, Section, Zone};
 use super::slip::Moves;
 use super::{FilmEffect, Law, Pair};
 use crate::simd::{Counters, InstructionSet, Lanes, Mask};
@@ -120,7 +120,8 @@ impl Pair {
         } else {
             zone.ends(section.normal)
         };
-        let regular = is_regular::<SYMMETRIC>(eight, &section, &zone, ends).and(skip.not());
+        let regular =
+            is_regular::<SYMMETRIC>(eight, &section, &zone, ends.0, ends.1).and(skip.not());
         // Contacts that are not evaluated here get a place just clear of the groove.
         let clear = (of.r - of.radius) * 0.5;
         let whole = Whole {
@@ -128,10 +129,10 @@ impl Pair {
                 e: regular.choose(section.e, clear),
                 c: regular.choose(c, zero),
                 approach: regular.choose(section.approach, zero),
-                normal: (
-                    regular.choose(section.normal.0, one),
-                    regular.choose(section.normal.1, zero),
-                ),
+                normal: Inclination {
+                    cos: regular.choose(section.normal.cos, one),
+                    sin: regular.choose(section.normal.sin, zero),
+                },
                 ..section
             },
             inverse: of.inverse,
@@ -154,7 +155,7 @@ impl Pair {
         };
         let wave_slope = eight.wavy.then(|| eight.raise.slope * over);
         let turn = match &eight.swell {
-            Some(swell) if is_flat => Some(swell.slope / whole.section.normal.0),
+            Some(swell) if is_flat => Some(swell.slope / whole.section.normal.cos),
             Some(swell) => Some(swell.slope),
             None => None,
         };
@@ -203,8 +204,9 @@ impl Pair {
                 to.element::<FMA, false>(&element, self.slices.count());
             }
             Summing::Elements(instructions, friction_weight) => {
+                let slip = self.slip::<FMA>(sigma, whole, moves);
                 let friction_weight =
-                    friction_weight.at_nodes::<FMA>(instructions, self, sigma, whole, moves, None);
+                    friction_weight.at_nodes(instructions, self, slip.as_ref(), &whole.half);
                 kernel::elements::<_, FMA, SYMMETRIC>(
                     &self.law,
                     &self.slices,
@@ -232,7 +234,7 @@ impl<'a> Sums<'a> {
             moment: zero,
             elastic: zero,
             pulls: Counters::default(),
-            lever: whole.section.radius * whole.section.normal.0,
+            lever: whole.section.radius * whole.section.normal.cos,
         }
     }
 
@@ -336,7 +338,8 @@ fn is_regular<const SYMMETRIC: bool>(
     eight: &EightContacts,
     section: &Section<Lanes>,
     zone: &Zone<Lanes>,
-    (low, high): (Lanes, Lanes),
+    low: Lanes,
+    high: Lanes,
 ) -> Mask {
     /// Bound of places as a share of the ball's or the groove's radius: nothing is singular yet.
     const EDGE: f64 = 1.0 - 1e-9;

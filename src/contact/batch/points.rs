@@ -10,7 +10,9 @@ use super::tilted::SpatialSums;
 use super::{Across, BatchForces, EightContacts, FrictionWeights, Moves, Place, Sums};
 use crate::contact::kernel::{Element, Receiver, Whole};
 use crate::contact::laws::elastic::{ElasticLaw, ForLaw};
-use crate::contact::profile::{Contour, FLAT, REACH, SHALLOW, SNUG, Section, SurfacePoint, Zone};
+use crate::contact::profile::{
+    Contour, FLAT, Inclination, REACH, SHALLOW, SNUG, Section, SurfacePoint, Zone,
+};
 use crate::contact::{Cut, FilmEffect, Motion, Pair, ZoneSlices};
 use crate::simd::{InstructionSet, Lanes, Mask};
 
@@ -52,15 +54,12 @@ impl Pair {
     ) -> BatchForces {
         let (curve, found, whole, moves, place) = self.place_on_curve::<FMA>(eight, ring, contour);
         let middle = (found.ends.0 + found.ends.1) * 0.5;
-        let friction_weight = friction_weight.at_nodes::<FMA>(
-            instructions,
-            self,
-            Lanes::all(self.race.sigma),
-            &whole,
-            &moves,
-            Some(middle),
-        );
-        let mut sums = Sums::new(self, Lanes::all(self.race.sigma), &whole, &moves);
+        let sigma = Lanes::all(self.race.sigma);
+        let slip = self.slip::<FMA>(sigma, &whole, &moves);
+        let slip = slip.map(|slip| slip.from::<FMA>(middle));
+        let friction_weight =
+            friction_weight.at_nodes(instructions, self, slip.as_ref(), &whole.half);
+        let mut sums = Sums::new(self, sigma, &whole, &moves);
         self.elements_on_curve::<FMA>(&curve, &found, &whole, middle, friction_weight, &mut sums);
         sums.on_bodies(&place)
     }
@@ -79,14 +78,11 @@ impl Pair {
         let (curve, found, whole, moves, place) = self.place_on_curve::<FMA>(eight, ring, contour);
         let middle = (found.ends.0 + found.ends.1) * 0.5;
         let turning = place.along_contact(turning, self.race.sigma);
-        let turns = (&moves, turning);
-        let friction_weight = friction_weight.at_nodes_turning::<FMA, true>(
-            instructions,
-            (self, Lanes::all(self.race.sigma)),
-            &whole,
-            turns,
-            Some(middle),
-        );
+        let sigma = Lanes::all(self.race.sigma);
+        let slip = self.slip_tilted::<FMA>(sigma, &whole, &moves, turning);
+        let slip = slip.map(|slip| slip.from::<FMA>(middle));
+        let friction_weight =
+            friction_weight.at_nodes(instructions, self, slip.as_ref(), &whole.half);
         let mut sums = SpatialSums {
             sums: Sums::new(self, Lanes::all(self.race.sigma), &whole, &moves),
             turning,
@@ -182,7 +178,7 @@ impl OnCurve<'_> {
                 ((-half, half), Mask::default().not())
             }
         };
-        let (cos, sin) = section.normal;
+        let Inclination { cos, sin } = section.normal;
         let [first, last] = self.contour.ends();
         let mut regular = settled.and(sealed).and(on_top);
         let mut along = [zero; 2];
@@ -249,8 +245,11 @@ impl OnCurve<'_> {
         let r = r - step * (slope - step * bend * 0.5);
         let slope = slope - step * bend;
         let cos = Lanes::all(1.0) / (slope * slope + 1.0).sqrt();
-        let normal = (cos, -(slope * cos) * sigma);
-        let height = (r - d) * sigma * normal.0 + (foot - z) * normal.1;
+        let normal = Inclination {
+            cos,
+            sin: -(slope * cos) * sigma,
+        };
+        let height = (r - d) * sigma * normal.cos + (foot - z) * normal.sin;
         let approach = self.radius - height;
         let hollow = -(bend * (cos * cos * cos)) * sigma;
         let least = self.radius * SNUG;
@@ -262,8 +261,8 @@ impl OnCurve<'_> {
         let section = Section {
             radius: self.radius,
             r: circle,
-            e: l * normal.0,
-            c: -(l * normal.1),
+            e: l * normal.cos,
+            c: -(l * normal.sin),
             l,
             normal,
             approach,
@@ -292,7 +291,7 @@ impl OnCurve<'_> {
         mut u: Lanes,
     ) -> (Lanes, Mask) {
         let (sigma, radius) = (self.contour.sigma(), self.radius);
-        let (cos, sin) = section.normal;
+        let Inclination { cos, sin } = section.normal;
         let last = u.abs() * SETTLED;
         let mut moving = Mask::default();
         for _ in 0..STEPS {
@@ -356,8 +355,9 @@ impl<R: Receiver<Lanes>, const FMA: bool> ForLaw for CurveElements<'_, R, FMA> {
                     } else {
                         let point =
                             SurfacePoint::over::<FMA>(whole.section.normal, u * whole.inverse);
-                        let place = (point.sin, point.cos, point.tan);
-                        self.on_surface::<L>(place, length * point.stretch)
+                        let SurfacePoint { cos, sin, tan, .. } = point;
+                        let slope = Inclination { cos, sin };
+                        self.on_surface::<L>(slope, tan, length * point.stretch)
                     };
                     if let Some(friction_weight) = self.friction_weight {
                         element.friction_weight = friction_weight[k];
@@ -367,15 +367,16 @@ impl<R: Receiver<Lanes>, const FMA: bool> ForLaw for CurveElements<'_, R, FMA> {
             }
             ZoneSlices::Fixed(count) => {
                 let width = radius * (2.0 / *count as f64);
-                let (cos, sin) = whole.section.normal;
+                let Inclination { cos, sin } = whole.section.normal;
                 for (place, _) in whole.fixed_sines::<false>(*count) {
                     let element = if L::FLAT {
                         let over = Lanes::all(1.0) / cos;
                         self.on_tangent::<L>(radius * (-sin + place) * over, width * over)
                     } else {
                         let cos = (1.0 - place * place).sqrt();
-                        let place = [place, cos, place / cos].map(Lanes::all);
-                        self.on_surface::<L>((place[0], place[1], place[2]), width)
+                        let slope = Inclination { cos, sin: place };
+                        let tan = Lanes::all(place / cos);
+                        self.on_surface::<L>(slope.map(Lanes::all), tan, width)
                     };
                     self.to.element::<FMA, false>(&element, 1);
                 }
@@ -401,15 +402,17 @@ impl<R, const FMA: bool> CurveElements<'_, R, FMA> {
     #[inline(always)]
     fn on_surface<L: ElasticLaw>(
         &self,
-        (sin, cos, tan): (Lanes, Lanes, Lanes),
+        slope: Inclination<Lanes>,
+        tan: Lanes,
         width: Lanes,
     ) -> Element<Lanes> {
+        let Inclination { cos, sin } = slope;
         let height = self.height(sin);
         let before = self.d * self.curve.contour.sigma() - height;
         let depth = cos.mul_add::<FMA>(self.curve.radius, before).or_zero();
         Element {
             sin,
-            slope: (sin, cos),
+            slope,
             groove: height,
             depth,
             length: width,
@@ -423,17 +426,17 @@ impl<R, const FMA: bool> CurveElements<'_, R, FMA> {
     #[inline(always)]
     fn on_tangent<L: ElasticLaw>(&self, u: Lanes, length: Lanes) -> Element<Lanes> {
         let whole = self.whole;
-        let (normal_cos, normal_sin) = whole.section.normal;
-        let sin = (u * whole.inverse).mul_add::<FMA>(normal_cos, normal_sin);
+        let normal = whole.section.normal;
+        let sin = (u * whole.inverse).mul_add::<FMA>(normal.cos, normal.sin);
         let depth = (whole.section.approach - u * u * whole.half_curvature).or_zero();
         Element {
             sin,
-            slope: (normal_sin, normal_cos),
+            slope: normal,
             groove: self.height(sin),
             depth,
             length,
             load: L::load::<Lanes, FMA>(whole.strength, depth),
-            share: whole.section.normal,
+            share: normal.share(),
             friction_weight: Lanes::all(1.0),
         }
     }

@@ -41,14 +41,9 @@ impl Pair {
             turning,
             moments: [Lanes::ZERO; 2],
         };
-        let turns = (&moves, turning);
-        let friction_weight = friction_weight.at_nodes_turning::<FMA, true>(
-            instructions,
-            (self, ring.sigma),
-            &whole,
-            turns,
-            None,
-        );
+        let slip = self.slip_tilted::<FMA>(ring.sigma, &whole, &moves, turning);
+        let friction_weight =
+            friction_weight.at_nodes(instructions, self, slip.as_ref(), &whole.half);
         let slices = &self.slices;
         kernel::elements::<_, FMA, false>(&self.law, slices, friction_weight, &whole, &mut sums);
         sums.on_bodies(eight, &place)
@@ -95,8 +90,7 @@ impl Receiver<Lanes> for SpatialSums<'_> {
             state.arm * self.sums.sigma,
             element.sin * self.sums.radii[0],
         );
-        let [along, across] =
-            kernel::slip_of_turning::<_, FMA>(self.turning, (h, zeta), state.slope);
+        let [along, across] = kernel::slip_of_turning::<_, FMA>(self.turning, h, zeta, state.slope);
         state.velocity[1] += along;
         let law = self.sums.law;
         let force = kernel::force::<_, FMA, SYMMETRIC, false, true>(law, &state, across);

@@ -4,7 +4,7 @@ use super::SurfaceDefect;
 use super::arc::Station;
 use super::hole::Unloading;
 use crate::contact::laws::Law;
-use crate::contact::profile::{RaceSurface, Raise, Section};
+use crate::contact::profile::{Inclination, RaceSurface, Raise, Section};
 use crate::contact::{Motion, Torus, V2, Waves};
 
 /// A contact as its geometry, and what its surfaces are made of.
@@ -90,15 +90,15 @@ impl Node {
 }
 
 impl Facing<'_> {
-    /// (cos α', sin α') of the common normal, where all elements press along it.
-    pub fn common(&self) -> Option<(f64, f64)> {
+    /// The common normal, where all elements press along it.
+    pub fn common(&self) -> Option<Inclination<f64>> {
         let is_flat = self.law.cut().is_flat();
         is_flat.then_some(self.section.normal)
     }
 
     /// Fall of the law's penetration over that of the geometry: 1, or cos α' for the Hertz law.
     pub fn drop_share(&self) -> f64 {
-        self.common().map_or(1.0, |(cos, _)| cos)
+        self.common().map_or(1.0, |normal| normal.cos)
     }
 
     /// Height of the race over the groove's centre at an axial place of the ring's frame; none where there is none.

@@ -38,6 +38,7 @@
 use super::depth::Sloped;
 use super::facing::{Facing, Node};
 use super::surfaces::SurfacePair;
+use crate::contact::profile::Inclination;
 use crate::contact::{PointForce, Sink, V2, turned};
 
 /// The body to which an axial end of a defect belongs.
@@ -58,7 +59,7 @@ impl Facing<'_> {
         met: &SurfacePair<Sloped>,
         sink: &mut S,
     ) {
-        let Some((cos, sin)) = self.common() else {
+        let Some(normal @ Inclination { cos, sin }) = self.common() else {
             return;
         };
         let lever = self.radius - node.zeta * sin;
@@ -75,7 +76,7 @@ impl Facing<'_> {
                 shifting -= force * cos * by_z;
             }
         }
-        sink.point(&self.turning((cos, sin), turning, shifting));
+        sink.point(&self.turning(normal, turning, shifting));
     }
 
     /// Force that the slope of the ball's texture makes of an elastic force.
@@ -96,14 +97,14 @@ impl Facing<'_> {
         };
         let zeta = node.zeta;
         let force = match (self.common(), owner) {
-            (Some((cos, sin)), _) => {
+            (Some(normal @ Inclination { cos, sin }), _) => {
                 let by_angle = (zeta * sin - self.radius) / (cos * cos);
                 let by_z = if owner == Owner::Ring {
                     -1.0 / cos
                 } else {
                     0.0
                 };
-                self.turning((cos, sin), jump * by_angle, jump * by_z)
+                self.turning(normal, jump * by_angle, jump * by_z)
             }
             (None, Owner::Ball) => self.central(0.0, self.unloading.share * jump),
             (None, Owner::Ring) => return,
@@ -140,14 +141,16 @@ impl Facing<'_> {
     }
 
     /// Force from derivatives of the energy by α' and, at fixed α', by dz.
-    fn turning(&self, (cos, sin): (f64, f64), by_angle: f64, by_z: f64) -> PointForce {
+    fn turning(&self, normal: Inclination<f64>, by_angle: f64, by_z: f64) -> PointForce {
+        let Inclination { cos, sin } = normal;
         let (share, per_angle) = (self.unloading.share, by_angle / self.section.l);
         self.central(-share * per_angle * sin, share * (per_angle * cos + by_z))
     }
 
     /// Force from the derivative by α' of what pits release.
     pub(super) fn turning_by(&self, by_angle: f64) -> PointForce {
-        let ((cos, sin), per_angle) = (self.section.normal, by_angle / self.section.l);
+        let (Inclination { cos, sin }, per_angle) =
+            (self.section.normal, by_angle / self.section.l);
         self.central(-per_angle * sin, per_angle * cos)
     }
 

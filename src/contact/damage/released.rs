@@ -17,6 +17,7 @@ use nalgebra::Vector3;
 use super::facing::Facing;
 use super::hole::{Released, Unloading};
 use super::{Releases, SurfaceDefect};
+use crate::contact::profile::Inclination;
 use crate::contact::{PointForce, Sink, V2, turned, wrapped};
 
 /// Damages smaller than it that a contact meets at once, at most.
@@ -100,7 +101,7 @@ impl<'a> Facing<'a> {
         if offset.abs() > defect.reach {
             return None;
         }
-        let (cos, sin) = self.section.normal;
+        let Inclination { cos, sin } = self.section.normal;
         let angle = ((defect.middle - self.race.centre) / self.race.r).asin();
         let radius = small.bed().radius;
         let at = [self.race.r * (angle - sin.atan2(cos)), radius * offset];
@@ -128,7 +129,7 @@ impl<'a> Facing<'a> {
 
     /// n_c, τ̂ and t_e.
     fn axes(&self) -> [Vector3<f64>; 3] {
-        let (cos, sin) = self.section.normal;
+        let Inclination { cos, sin } = self.section.normal;
         let n = self.n * self.race.sigma;
         let t = turned(n);
         [

@@ -83,18 +83,13 @@ impl Pair {
             ..
         } = nodes;
         let (whole, sigma) = (&held.whole, Lanes::all(self.race.sigma));
-        let weights = if N > AXIAL {
-            let turns = (&moves, [twist[AXIAL], twist[AXIAL + 1]]);
-            friction_weight.at_nodes_turning::<FMA, true>(
-                instructions,
-                (self, sigma),
-                whole,
-                turns,
-                None,
-            )
+        let slip = if N > AXIAL {
+            let turning = [twist[AXIAL], twist[AXIAL + 1]];
+            self.slip_tilted::<FMA>(sigma, whole, &moves, turning)
         } else {
-            friction_weight.at_nodes::<FMA>(instructions, self, sigma, whole, &moves, None)
+            self.slip::<FMA>(sigma, whole, &moves)
         };
+        let weights = friction_weight.at_nodes(instructions, self, slip.as_ref(), &whole.half);
         for (element, weight) in elements.iter_mut().zip(weights.into_iter().flatten()) {
             element.friction_weight = *weight;
         }

@@ -20,6 +20,7 @@ pub(crate) use slope::{AXIAL, FREE, HeldSlope, PlaneVector, in_contact};
 use super::batch::{Across, EightContacts, FrictionWeights, RingLanes};
 use super::kernel::{self, Element, ElementForce, ElementState, Receiver, Whole};
 use super::laws::traction::Rolling;
+use super::profile::Inclination;
 use super::slip::Moves;
 use super::{FilmEffect, Motion, Pair};
 use crate::simd::{InstructionSet, Lanes, Mask};
@@ -34,7 +35,7 @@ pub(crate) struct HeldElement {
     share: (Lanes, Lanes),
     /// Weight of friction at the velocities at which the element was found.
     friction_weight: Lanes,
-    slope: (Lanes, Lanes),
+    slope: Inclination<Lanes>,
     /// Moments about the ball's centre of unit forces along n_e and t_e.
     levers: PlaneVector,
     /// ζ, from the ball's centre along the axis.
@@ -155,26 +156,15 @@ impl Pair {
             rolling,
             friction_weight,
         } = nodes;
-        let friction_weight = match turning {
-            None => friction_weight.at_nodes::<FMA>(
-                instructions,
-                self,
-                ring.sigma,
-                &contact,
-                &moves,
-                None,
-            ),
+        let slip = match turning {
+            None => self.slip::<FMA>(ring.sigma, &contact, &moves),
             Some(turning) => {
-                let turns = (&moves, place.along_contact(turning, sigma));
-                friction_weight.at_nodes_turning::<FMA, true>(
-                    instructions,
-                    (self, ring.sigma),
-                    &contact,
-                    turns,
-                    None,
-                )
+                let turning = place.along_contact(turning, sigma);
+                self.slip_tilted::<FMA>(ring.sigma, &contact, &moves, turning)
             }
         };
+        let friction_weight =
+            friction_weight.at_nodes(instructions, self, slip.as_ref(), &contact.half);
         let mut holding = Holding {
             elements,
             rolling,
@@ -204,7 +194,7 @@ impl Pair {
                 radii: [contact.section.radius, contact.section.r],
                 oil: moves.oil,
                 distance: place.d,
-                lever: contact.section.radius * contact.section.normal.0,
+                lever: contact.section.radius * contact.section.normal.cos,
             },
         }
     }
@@ -246,7 +236,7 @@ impl Pair {
         let [n, t, _] = force.on_ring;
         to[3] = to[3] - moment::<FMA>(n, t, *levers);
         if N > AXIAL {
-            let (sin, cos) = *slope;
+            let Inclination { cos, sin } = *slope;
             let rubs = force.friction;
             let along = [rubs[1], rubs[2] * cos - rubs[0] * sin];
             for k in 0..2 {
@@ -273,12 +263,12 @@ impl Pair {
             twist[2],
         ];
         let (one, none) = (Lanes::all(1.0), Lanes::ZERO);
-        let beside = -(levers[0] * element.slope.1);
+        let beside = -(levers[0] * element.slope.cos);
         let mut turns = [none; 2];
         let mut across = none;
         if N > AXIAL {
-            let at = (levers[1], element.place);
-            turns = kernel::slip_of_turning::<_, FMA>([one; 2], at, element.slope);
+            let (h, zeta) = (levers[1], element.place);
+            turns = kernel::slip_of_turning::<_, FMA>([one; 2], h, zeta, element.slope);
             velocity[1] = twist[AXIAL].mul_add::<FMA>(turns[0], velocity[1]);
             across = twist[AXIAL].mul_add::<FMA>(beside, twist[AXIAL + 1] * turns[1]);
         }
@@ -318,7 +308,7 @@ impl Pair {
         hardening: Lanes,
         reach: f64,
     ) -> Slope {
-        let ((in_plane, axial), (sin, cos)) = (state.share, state.slope);
+        let ((in_plane, axial), Inclination { cos, sin }) = (state.share, state.slope);
         let zero = Lanes::ZERO;
         // How the normal force grows with the velocities; friction only where it presses.
         let rate = self.law.damping.rate();

@@ -4,6 +4,7 @@
 #![allow(clippy::inline_always)]
 
 use super::{AXIAL, Around, HeldElement, HeldRolling, PlaneVector};
+use crate::contact::profile::Inclination;
 use crate::contact::{ContactForce, OilForce, Sink, V2, cross, turned};
 use crate::simd::{LANES, Lanes};
 
@@ -24,7 +25,7 @@ impl SlicePack {
     pub fn approach<const N: usize>(&self, twist: &mut [Lanes; N]) {
         if N > AXIAL {
             let rate = self.turn_axis[0] * twist[AXIAL] + self.turn_axis[1] * twist[AXIAL + 1];
-            let (sin, cos) = self.element.slope;
+            let Inclination { cos, sin } = self.element.slope;
             let size = rate * self.element.levers[0] * self.pressing();
             twist[0] += size * cos;
             twist[2] += size * sin;
@@ -34,7 +35,8 @@ impl SlicePack {
     /// The part of a normal force in the plane, over what of it shows along (cos α, sin α).
     #[inline(always)]
     fn pressing(&self) -> Lanes {
-        let ((in_plane, axial), (sin, cos)) = (self.element.share, self.element.slope);
+        let HeldElement { share, slope, .. } = self.element;
+        let ((in_plane, axial), Inclination { cos, sin }) = (share, slope);
         let shows = in_plane * cos + axial * sin;
         // Nothing in lanes without a slice.
         let pressing = in_plane / shows;
@@ -95,7 +97,7 @@ impl Sink for SlicePacking<'_> {
         };
         (element.share.0[lane], element.share.1[lane]) = force.share;
         element.friction_weight[lane] = force.friction_weight;
-        (element.slope.0[lane], element.slope.1[lane]) = (sin, cos);
+        (element.slope.sin[lane], element.slope.cos[lane]) = (sin, cos);
         rolling.load[lane] = force.elastic / force.width;
         rolling.depth[lane] = force.depth;
         rolling.arm[lane] = arm.dot(&self.outwards);

@@ -5,6 +5,7 @@
 // Loops over matrices read as their formulae do.
 #![allow(clippy::needless_range_loop)]
 
+use crate::contact::profile::Inclination;
 use crate::simd::Lanes;
 
 /// Directions in the plane.
@@ -70,7 +71,7 @@ impl<const N: usize> HeldSlope<N> {
         of: &Slope,
         levers: PlaneVector,
         turns: [Lanes; 2],
-        (sin, cos): (Lanes, Lanes),
+        Inclination { cos, sin }: Inclination<Lanes>,
     ) {
         let [tt, tm, mm] = of.slip;
         let by_slip = [(tt, tm), (tm, mm)];

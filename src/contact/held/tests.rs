@@ -11,7 +11,10 @@ fn state<T: crate::simd::Number>(of: impl Fn(f64) -> T, velocity: [T; 3]) -> Ele
         elastic: of(120.0),
         share: (of(0.8), of(0.6)),
         friction_weight: of(0.9),
-        slope: (of(0.55), of(f64::sqrt(1.0 - 0.55 * 0.55))),
+        slope: Inclination {
+            cos: of(f64::sqrt(1.0 - 0.55 * 0.55)),
+            sin: of(0.55),
+        },
         velocity,
         load: of(1e5),
         depth: of(1e-5),

@@ -16,7 +16,7 @@
 
 use super::curve::Curve;
 use super::meeting::{Meeting, Part, RaceSurface, STEPS};
-use super::{Section, Torus};
+use super::{Inclination, Section, Torus};
 use crate::simd::{Lanes, Mask};
 
 /// A race through points.
@@ -145,11 +145,12 @@ impl Contour {
         let bend = self.curve.at(foot);
         let (out, along) = (self.sigma * (bend.radius - ball.d), foot - ball.z);
         let own = bend.normal(self.sigma);
-        let (distance, projected) = (out.hypot(along), out * own.0 + along * own.1);
+        let (distance, projected) = (out.hypot(along), out * own.cos + along * own.sin);
         // Towards the foot, which is along the race's own normal unless the part ends there; that a ball is beyond the race
         // only the normal knows.
         let (normal, height) = if projected > 0.0 {
-            ((out / distance, along / distance), distance)
+            let (cos, sin) = (out / distance, along / distance);
+            (Inclination { cos, sin }, distance)
         } else {
             (own, projected)
         };
@@ -157,7 +158,7 @@ impl Contour {
         let flattest = 1.0 / (FLAT * ball.radius);
         let r = (1.0 / bend.hollow(self.sigma).max(flattest)).max(SNUG * ball.radius);
         let l = approach + r - ball.radius;
-        let (e, c) = (l * normal.0, -l * normal.1);
+        let (e, c) = (l * normal.cos, -l * normal.sin);
         let centre = ball.z + c;
         Some(Meeting {
             surface: RaceSurface {
@@ -260,7 +261,7 @@ fn nominal(curve: &Curve, sigma: f64, radius: f64, angle: f64) -> Option<Torus> 
         return None;
     }
     let (r, at) = (1.0 / hollow, curve.at(z));
-    let (cos, sin) = at.normal(sigma);
+    let Inclination { cos, sin } = at.normal(sigma);
     let centre = z - r * sin;
     let [low, high] = curve.ends();
     Some(Torus {

@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::Inclination;
 use crate::simd::{LANES, Lanes};
 
 /// Terms of the polynomial that smooths points.
@@ -63,10 +64,13 @@ impl RacePoint {
         -sigma * self.bend / (1.0 + self.slope * self.slope).powf(1.5)
     }
 
-    /// Unit normal (in the plane, axial) out of a ball that touches there.
-    pub fn normal(&self, sigma: f64) -> (f64, f64) {
+    /// Normal out of a ball that touches there.
+    pub fn normal(&self, sigma: f64) -> Inclination<f64> {
         let over = 1.0 / (1.0 + self.slope * self.slope).sqrt();
-        (over, -sigma * self.slope * over)
+        Inclination {
+            cos: over,
+            sin: -sigma * self.slope * over,
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::curve::{Curve, RacePoint};
 use super::zone::{Ends, Zone};
-use super::{Chord, SHALLOW, Section, Torus};
+use super::{Chord, Inclination, SHALLOW, Section, Torus};
 
 /// Steps of Newton's method that are always enough; three are the rule.
 pub(super) const STEPS: usize = 40;
@@ -67,7 +67,7 @@ impl Meeting<'_> {
         // The race hugs the ball, or the ball is not in front of it: let every slice decide for itself.
         let along_axis = Chord {
             radius,
-            normal: (1.0, 0.0),
+            normal: Inclination { cos: 1.0, sin: 0.0 },
         };
         (along_axis, [(-radius, false), (radius, false)])
     }
@@ -81,7 +81,7 @@ impl Meeting<'_> {
 
     /// |u| of the ball's equator, on the side of a u; the ball does not end on the other side.
     fn equator(&self, u: f64) -> f64 {
-        let (cos, sin) = self.section.normal;
+        let Inclination { cos, sin } = self.section.normal;
         if u * sin > 0.0 {
             self.section.radius * cos
         } else {
@@ -138,7 +138,7 @@ impl Meeting<'_> {
 
     /// Penetration in the plane at u on the chord, and its slope.
     fn depth(&self, chord: &Chord, u: f64) -> (f64, f64) {
-        let ((cos, sin), radius) = (chord.normal, chord.radius);
+        let (Inclination { cos, sin }, radius) = (chord.normal, chord.radius);
         let height = (radius * radius - u * u).sqrt();
         let (zeta, rho) = (height * sin + u * cos, height * cos - u * sin);
         let falls = u / height;

@@ -18,7 +18,7 @@ pub(crate) use curve::Curve;
 pub(crate) use heights::HeightTable;
 pub(super) use meeting::{Meeting, REACH, RaceSurface};
 pub(crate) use raise::Raise;
-pub(crate) use section::Section;
+pub(crate) use section::{Inclination, Section};
 pub use waves::Waves;
 pub(super) use zone::{Chord, Ends, SHALLOW, SurfacePoint, Zone};
 

@@ -5,6 +5,30 @@
 
 use crate::simd::{Decision, Number};
 
+/// A direction in the meridional plane, by cosine and sine of its angle from the bearing's plane towards +z.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct Inclination<T> {
+    pub cos: T,
+    pub sin: T,
+}
+
+impl<T> Inclination<T> {
+    /// Shares of a force that presses along the normal in the plane and along the axis.
+    #[inline(always)]
+    pub fn share(self) -> (T, T) {
+        (self.cos, self.sin)
+    }
+
+    /// The same in another kind of number.
+    #[inline(always)]
+    pub fn map<U>(self, of: impl Fn(T) -> U) -> Inclination<U> {
+        Inclination {
+            cos: of(self.cos),
+            sin: of(self.sin),
+        }
+    }
+}
+
 /// A ball before a groove: the ball's centre is the origin, the groove's centre lies at axial place c and at −e along
 /// the outward normal n_e; both races look alike here ([*Slices*](crate::equations#slices)).
 #[derive(Debug, Clone, Copy, Default)]
@@ -19,8 +43,8 @@ pub(crate) struct Section<T> {
     pub c: T,
     /// Distance of the two centres \[m\].
     pub l: T,
-    /// (cos α', sin α') of the common normal, out of the ball.
-    pub normal: (T, T),
+    /// Common normal, out of the ball, at α'.
+    pub normal: Inclination<T>,
     /// Normal approach δ = l + R − r, negative without contact \[m\].
     pub approach: T,
 }
@@ -30,11 +54,13 @@ impl<T: Number> Section<T> {
     #[inline(always)]
     pub fn new<const FMA: bool, const SYMMETRIC: bool>(radius: T, r: T, e: T, c: T) -> Self {
         let (l, normal) = if SYMMETRIC {
-            (e, (e.same(1.0), e.same(0.0)))
+            let (cos, sin) = (e.same(1.0), e.same(0.0));
+            (e, Inclination { cos, sin })
         } else {
             let l = e.mul_add::<FMA>(e, c * c).sqrt();
             let over = l.same(1.0) / l;
-            (l, (e * over, -(c * over)))
+            let (cos, sin) = (e * over, -(c * over));
+            (l, Inclination { cos, sin })
         };
         Self {
             radius,

@@ -3,7 +3,7 @@
 // Into loops that are compiled for the instructions at hand.
 #![allow(clippy::inline_always)]
 
-use super::Section;
+use super::{Inclination, Section};
 use crate::simd::Number;
 
 /// Height of a chord over the ball's centre, as a share of its radius, below which a zone is not cut along it.
@@ -40,16 +40,16 @@ impl<T: Number> Zone<T> {
         }
     }
 
-    /// The zone's ends along ζ, for a normal (cos α', sin α').
+    /// The zone's ends along ζ, for a normal at α'.
     #[inline(always)]
-    pub fn ends(&self, (cos, sin): (T, T)) -> (T, T) {
+    pub fn ends(&self, Inclination { cos, sin }: Inclination<T>) -> (T, T) {
         let (middle, reach) = (self.height * sin, self.half * cos);
         (middle - reach, middle + reach)
     }
 
     /// Height of its lower end above the ball's equator: not positive where the ball ends before the zone.
     #[inline(always)]
-    pub fn lowest(&self, (cos, sin): (T, T)) -> T {
+    pub fn lowest(&self, Inclination { cos, sin }: Inclination<T>) -> T {
         self.height * cos - (self.half * sin).abs()
     }
 }
@@ -67,12 +67,12 @@ pub(in crate::contact) struct SurfacePoint<T> {
 }
 
 impl<T: Number> SurfacePoint<T> {
-    /// The slope over u/R on a chord whose normal is (cos, sin).
+    /// The slope over u/R on a chord with some normal.
     #[inline(always)]
-    pub fn over<const FMA: bool>((normal_cos, normal_sin): (T, T), u: T) -> Self {
+    pub fn over<const FMA: bool>(normal: Inclination<T>, u: T) -> Self {
         let height = (-u).mul_add::<FMA>(u, u.same(1.0)).sqrt();
-        let sin = u.mul_add::<FMA>(normal_cos, height * normal_sin);
-        let cos = height * normal_cos - u * normal_sin;
+        let sin = u.mul_add::<FMA>(normal.cos, height * normal.sin);
+        let cos = height * normal.cos - u * normal.sin;
         // One division for 1/height and 1/cos.
         let over = u.same(1.0) / (height * cos);
         Self {
@@ -95,8 +95,8 @@ pub(in crate::contact) type Ends = [(f64, bool); 2];
 pub(in crate::contact) struct Chord {
     /// Ball radius \[m\].
     pub radius: f64,
-    /// (cos, sin) of the chord's normal.
-    pub normal: (f64, f64),
+    /// The chord's normal.
+    pub normal: Inclination<f64>,
 }
 
 impl Chord {
@@ -106,14 +106,14 @@ impl Chord {
         let radius = section.radius;
         let along_axis = Self {
             radius,
-            normal: (1.0, 0.0),
+            normal: Inclination { cos: 1.0, sin: 0.0 },
         };
         if section.e <= 0.0 {
             // The ball is not in front of the groove's bottom: let every slice decide for itself.
             return (along_axis, [(-radius, false), (radius, false)]);
         }
         let zone = Zone::on_chord(section);
-        let (cos, sin) = section.normal;
+        let Inclination { cos, sin } = section.normal;
         if zone.height < SHALLOW * radius {
             let end = |side: f64| {
                 let rho = zone.height * cos - side * zone.half * sin;
@@ -149,7 +149,7 @@ impl Chord {
 
     /// u of the point at a place ζ; none beyond the ball.
     pub fn u(&self, zeta: f64) -> Option<f64> {
-        let (cos, sin) = self.normal;
+        let Inclination { cos, sin } = self.normal;
         let square = self.radius * self.radius - zeta * zeta;
         (square > 0.0).then(|| zeta * cos - square.sqrt() * sin)
     }

@@ -184,7 +184,7 @@ mod tests {
             let mut found = vec![[0.0; 2]; m];
             halves.weights::<f64, false>(&slip, 2e-3, |k, weight| found[k][0] += weight);
             let mut weights = vec![0.0; m];
-            whole.weights::<f64, false>(&slip, (0.0, 2e-3), &mut weights);
+            whole.weights::<f64, false>(&slip, 0.0, 2e-3, &mut weights);
             for (to, weight) in found.iter_mut().zip(weights) {
                 to[1] = weight;
             }

@@ -69,13 +69,13 @@ impl<T: Number> Needles<T> {
         // No step of Newton's method leads from one zero to the other.
         let far = root / (c_2.abs() + TINY) * 0.125;
         let limit = far - (far + -0.1).or_zero();
-        let near = |zero| {
+        let near = |over, under| {
             half.outlined(
                 #[inline(always)]
-                || Needle::of::<FMA>(&zone, zero, (there, limit)),
+                || Needle::of::<FMA>(&zone, over, under, there, limit),
             )
         };
-        let (first, second) = (near((c_0, q)), near((q, c_2)));
+        let (first, second) = (near(c_0, q), near(q, c_2));
         let count = match (first.is_any(), second.is_any()) {
             (_, true) => 2,
             (true, false) => 1,
@@ -162,11 +162,7 @@ fn quotient<T: Number, const FMA: bool>(over: T, under: T) -> T {
 impl<T: Number> Needle<T> {
     /// The needle near x = over/under, if that lies near the zone, and where it is `there`.
     #[inline(always)]
-    fn of<const FMA: bool>(
-        zone: &CutZone<'_, T>,
-        (over, under): (T, T),
-        (there, limit): (T, T),
-    ) -> Self {
+    fn of<const FMA: bool>(zone: &CutZone<'_, T>, over: T, under: T, there: T, limit: T) -> Self {
         let one = over.same(1.0);
         let near = (under.abs() * REACH - over.abs()).positive_then(there);
         let mut place = near * quotient::<T, FMA>(over, under);

@@ -88,11 +88,17 @@ impl Product {
     /// Where K peaks like a needle beside a node, a node may weigh less than nothing, as in any rule for such a K; the sum over
     /// a contact is what is meant, and that takes power out.
     #[inline(always)]
-    pub fn weights<T: Number, const FMA: bool>(&self, slip: &Slip<T>, zone: (T, T), to: &mut [T]) {
+    pub fn weights<T: Number, const FMA: bool>(
+        &self,
+        slip: &Slip<T>,
+        centre: T,
+        half: T,
+        to: &mut [T],
+    ) {
         if self.moments.is_some() {
-            self.weighed::<T, FMA, true>(slip, zone, to);
+            self.weighed::<T, FMA, true>(slip, centre, half, to);
         } else {
-            self.weighed::<T, FMA, false>(slip, zone, to);
+            self.weighed::<T, FMA, false>(slip, centre, half, to);
         }
     }
 
@@ -100,7 +106,8 @@ impl Product {
     fn weighed<T: Number, const FMA: bool, const FILM: bool>(
         &self,
         slip: &Slip<T>,
-        (centre, half): (T, T),
+        centre: T,
+        half: T,
         to: &mut [T],
     ) {
         let needles = match &self.moments {

@@ -14,6 +14,13 @@ const CLOSE: f64 = 1e-9;
 /// Ends of zones in one piece that are kept; a bed of floor circles can have more, at some loss of accuracy.
 const MOST_ENDS: usize = 16;
 
+/// A place that was looked at, and the penetration there \[m\].
+#[derive(Clone, Copy)]
+struct Look {
+    u: f64,
+    value: f64,
+}
+
 impl OneContact<'_> {
     /// Places where a penetration of any element changes its sign within a piece, in order.
     pub(super) fn zone_ends(
@@ -31,8 +38,8 @@ impl OneContact<'_> {
             self.node(line, u, 0.0)
                 .map(|node| self.facing.penetrations(&node))
         };
-        let mut keep = |of: &dyn Fn(f64) -> f64, a: (f64, f64), b: (f64, f64)| {
-            if (a.1 > 0.0) != (b.1 > 0.0) && count < MOST_ENDS {
+        let mut keep = |of: &dyn Fn(f64) -> f64, a: Look, b: Look| {
+            if (a.value > 0.0) != (b.value > 0.0) && count < MOST_ENDS {
                 ends[count] = root(of, a, b);
                 count += 1;
             }
@@ -46,15 +53,22 @@ impl OneContact<'_> {
                 let first = last.as_ref().filter(|a| a.count == shared);
                 for i in 0..shared {
                     let penetration = |u: f64| at(u).map_or(0.0, |found| found.values[i]);
-                    let (b, c) = ((u - step, b.values[i]), (u, c.values[i]));
+                    let [b, c] = [(u - step, b), (u, c)].map(|(u, found)| Look {
+                        u,
+                        value: found.values[i],
+                    });
                     keep(&penetration, b, c);
-                    let Some(a) = first.map(|a| (u - 2.0 * step, a.values[i])) else {
+                    let Some(a) = first.map(|a| Look {
+                        u: u - 2.0 * step,
+                        value: a.values[i],
+                    }) else {
                         continue;
                     };
                     // Between looks it may touch and part again, or the reverse.
-                    if let Some(turn) = turning_point([a.1, b.1, c.1]) {
-                        let turn = b.0 + step * turn;
-                        let there = (turn, penetration(turn));
+                    if let Some(turn) = turning_point([a, b, c].map(|look| look.value)) {
+                        let u = b.u + step * turn;
+                        let value = penetration(u);
+                        let there = Look { u, value };
                         keep(&penetration, a, there);
                         keep(&penetration, there, c);
                     }
@@ -77,19 +91,19 @@ fn turning_point([a, b, c]: [f64; 3]) -> Option<f64> {
 }
 
 /// A zero between two places of opposite sign, by the Illinois variant of regula falsi.
-fn root(f: impl Fn(f64) -> f64, mut a: (f64, f64), mut b: (f64, f64)) -> f64 {
+fn root(f: impl Fn(f64) -> f64, mut a: Look, mut b: Look) -> f64 {
     for _ in 0..12 {
-        let x = (a.0 * b.1 - b.0 * a.1) / (b.1 - a.1);
-        let y = f(x);
-        if y == 0.0 || (b.0 - a.0).abs() < CLOSE {
-            return x;
+        let u = (a.u * b.value - b.u * a.value) / (b.value - a.value);
+        let value = f(u);
+        if value == 0.0 || (b.u - a.u).abs() < CLOSE {
+            return u;
         }
-        if (y > 0.0) == (b.1 > 0.0) {
-            a.1 /= 2.0;
+        if (value > 0.0) == (b.value > 0.0) {
+            a.value /= 2.0;
         } else {
             a = b;
         }
-        b = (x, y);
+        b = Look { u, value };
     }
-    b.0
+    b.u
 }

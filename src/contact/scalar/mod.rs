@@ -368,7 +368,7 @@ impl OneContact<'_> {
         if let Some((oiled, r)) = oiled {
             let (sigma, lever) = (
                 self.facing.race.sigma,
-                self.facing.section.radius * self.facing.section.normal.0,
+                self.facing.section.radius * self.facing.section.normal.cos,
             );
             sink.oil(&OilForce::new(
                 oiled,

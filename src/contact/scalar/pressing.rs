@@ -3,6 +3,7 @@
 use super::OneContact;
 use crate::contact::damage::{Depth, Node, RingSurface, Sloped, SurfacePair, WaveSlope};
 use crate::contact::kernel::{self, ElementState};
+use crate::contact::profile::Inclination;
 use crate::contact::{ContactForce, PointForce, Sink, V2, cross, turned};
 
 impl OneContact<'_> {
@@ -129,19 +130,19 @@ impl OneContact<'_> {
             - turned(surface.arm_ring) * r.omega;
         let radius = self.facing.radius;
         // Along the common tangent, or α of the slice or of the gap's gradient at a ball's fault circle.
-        let slope = if let Some((cos, sin)) = self.facing.common() {
-            (sin, cos)
-        } else {
+        let common = self.facing.common();
+        let slope = common.unwrap_or_else(|| {
             let cos = 1.0 / (1.0 + tan * tan).sqrt();
-            (tan * cos, cos)
-        };
+            let sin = tan * cos;
+            Inclination { cos, sin }
+        });
         let (load, arm) = if self.pair.reads_rolling() {
             let arm = surface.arm_ring.dot(&self.facing.n) - self.facing.distance;
             (elastic / node.width, arm)
         } else {
             (0.0, 0.0)
         };
-        let share = self.facing.common().unwrap_or((1.0, tan));
+        let share = common.map_or((1.0, tan), Inclination::share);
         let velocity = [v_p.dot(&n_e), v_p.dot(&turned(n_e)), b.vz - r.vz];
         ElementState {
             elastic,
@@ -171,20 +172,21 @@ impl OneContact<'_> {
         let (n_e, across) = (surface.n_e, self.facing.b.across);
         let arm = surface.arm_ring - self.facing.apart;
         let w = [across.dot(&n_e), across.dot(&turned(n_e))];
-        let place = (arm.dot(&n_e), node.zeta);
-        let [along, meridional] = kernel::slip_of_turning::<_, false>(w, place, state.slope);
+        let h = arm.dot(&n_e);
+        let [along, meridional] = kernel::slip_of_turning::<_, false>(w, h, node.zeta, state.slope);
         // An edge of the ball's own comes nearer as it turns, and stands off the line of centres.
         let rate = cross(arm, n_e) * surface.turn_axis.xy().dot(&across);
-        let [nearer, _, axial] = approaching(rate, state.share, state.slope);
+        let [nearer, _, axial] = approaching(rate, state);
         state.velocity[0] += nearer;
         state.velocity[1] += along;
         state.velocity[2] += axial;
-        meridional + w[0] * arm.dot(&turned(n_e)) * state.slope.1
+        meridional + w[0] * arm.dot(&turned(n_e)) * state.slope.cos
     }
 }
 
 /// The velocity along n_e, t_e and z of an edge that is turned into the race at a rate \[m/s\], without slip.
-fn approaching(rate: f64, (in_plane, axial): (f64, f64), (sin, cos): (f64, f64)) -> [f64; 3] {
+fn approaching(rate: f64, of: &ElementState<f64>) -> [f64; 3] {
+    let ((in_plane, axial), Inclination { cos, sin }) = (of.share, of.slope);
     let size = rate * in_plane / (in_plane * cos + axial * sin);
     [size * cos, 0.0, size * sin]
 }

@@ -10,7 +10,7 @@
 
 use super::OneContact;
 use crate::contact::damage::{BESIDE, Node, Owner};
-use crate::contact::profile::{Chord, Ends, Section, Zone};
+use crate::contact::profile::{Chord, Ends, Inclination, Section, Zone};
 use crate::contact::quadrature::MOST;
 use crate::contact::{ContactDirection, Rules, Sink, SurfaceDefect, ZoneSlices};
 
@@ -59,7 +59,7 @@ impl Line {
         if section.e <= 0.0 || section.approach <= 0.0 {
             return None;
         }
-        let (cos, sin) = section.normal;
+        let Inclination { cos, sin } = section.normal;
         let half = Zone::on_tangent(section, 0.5 * curvature).half;
         Some(Self {
             along: Along::Tangent {
@@ -265,8 +265,8 @@ impl OneContact<'_> {
         let weighed = self.slip.as_ref().zip(product);
         let mut friction_weight = [if weighed.is_some() { 0.0 } else { 1.0 }; 2 * MOST];
         if let Some((slip, product)) = weighed {
-            let zone = (centre - self.middle, half);
-            product.weights::<_, false>(slip, zone, &mut friction_weight);
+            let centre = centre - self.middle;
+            product.weights::<_, false>(slip, centre, half, &mut friction_weight);
         }
         for (k, (x, weight)) in rules.on(piece.sealed).iter().enumerate() {
             match self.node(line, centre + half * x, half * weight) {

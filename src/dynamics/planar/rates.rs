@@ -41,14 +41,13 @@ impl Wide for Rates<'_> {
         for row in &mut planar.rows {
             let compiled = &model.rows[row.row];
             if let Some(cage) = model.scene.cage_links() {
-                row.link(simd, (cage, compiled.cage_distance), q, v);
+                row.link(simd, cage, compiled.cage_distance, q, v);
             }
-            let contacts = (&compiled.pairs, &rings);
-            let states = (q, v, &mut *accelerations);
+            let pairs = &compiled.pairs;
             let plain = if row.forms.iter().all(InPlane::is_middle) {
-                row.forces::<S, true>(simd, contacts, states, &mut on_rings)
+                row.forces::<S, true>(simd, pairs, &rings, q, v, accelerations, &mut on_rings)
             } else {
-                row.forces::<S, false>(simd, contacts, states, &mut on_rings)
+                row.forces::<S, false>(simd, pairs, &rings, q, v, accelerations, &mut on_rings)
             };
             if !plain {
                 return false;
@@ -56,7 +55,7 @@ impl Wide for Rates<'_> {
         }
         for (ring, forces) in planar.rings.iter().zip(on_rings) {
             for (direction, force) in ring.iter().zip(forces) {
-                direction.accelerate(planar.times * force, (q, v, accelerations));
+                direction.accelerate(planar.times * force, q, v, accelerations);
             }
         }
         true
@@ -85,7 +84,7 @@ impl Direction {
 
     /// Writes the acceleration by a force of the contacts, the support's spring and the steady forces.
     #[inline(always)]
-    fn accelerate(&self, force: f64, (q, v, to): (&[f64], &[f64], &mut [f64])) {
+    fn accelerate(&self, force: f64, q: &[f64], v: &[f64], to: &mut [f64]) {
         let Some(at) = self.at else { return };
         let spring = self
             .spring
@@ -104,7 +103,7 @@ impl Balls {
 
     /// The forces of the cage's links.
     #[inline(always)]
-    fn link<S: Simd>(&mut self, simd: S, cage: (&CageLinks, f64), q: &[f64], v: &[f64]) {
+    fn link<S: Simd>(&mut self, simd: S, cage: &CageLinks, nominal: f64, q: &[f64], v: &[f64]) {
         let all = |x: f64| Vector::all(simd, x);
         let of = [self.of(0, q), self.of(1, q), self.of(0, v), self.of(1, v)];
         let last = self.count - 1;
@@ -112,7 +111,7 @@ impl Balls {
         for (apart, of) in apart.iter_mut().zip(of) {
             *apart = all(of[0] - of[last]);
         }
-        let closing = pull(cage, apart);
+        let closing = pull(cage, nominal, apart);
         for (links, closing) in self.links.iter_mut().zip(closing) {
             (links[0], links[last + 1]) = (closing.first(), closing.first());
         }
@@ -120,19 +119,23 @@ impl Balls {
             for (apart, of) in apart.iter_mut().zip(of) {
                 *apart = Vector::load(simd, &of[at + 1..]) - Vector::load(simd, &of[at..]);
             }
-            for (links, pull) in self.links.iter_mut().zip(pull(cage, apart)) {
+            for (links, pull) in self.links.iter_mut().zip(pull(cage, nominal, apart)) {
                 pull.store(&mut links[at + 1..]);
             }
         }
     }
 
     /// The contacts, and the accelerations of the balls by all forces; false where a contact is out of the reach of its form.
+    #[allow(clippy::too_many_arguments)]
     #[inline(always)]
     fn forces<S: Simd, const MIDDLE: bool>(
         &self,
         simd: S,
-        (pairs, rings): (&[Pair; 2], &[Motion; 2]),
-        (q, v, to): (&[f64], &[f64], &mut [f64]),
+        pairs: &[Pair; 2],
+        rings: &[Motion; 2],
+        q: &[f64],
+        v: &[f64],
+        to: &mut [f64],
         on_rings: &mut [[f64; 2]; 2],
     ) -> bool {
         let all = |x: f64| Vector::all(simd, x);

@@ -128,7 +128,7 @@ impl Wide for Links<'_> {
             for (apart, of) in apart.iter_mut().zip(of) {
                 *apart = all(of[from] - of[from + balls - 1]);
             }
-            closing = pull((cage, row.cage_distance), apart);
+            closing = pull(cage, row.cage_distance, apart);
         }
         let mut before = closing;
         let [fx, fy, ..] = forces.directions_mut();
@@ -138,7 +138,7 @@ impl Wide for Links<'_> {
             for (apart, of) in apart.iter_mut().zip(of) {
                 *apart = Vector::load(simd, &of[body + 1..]) - Vector::load(simd, &of[body..]);
             }
-            let linked = pull((cage, row.cage_distance), apart);
+            let linked = pull(cage, row.cage_distance, apart);
             let lane = Vector::count(simd);
             let left = (balls - at) as f64;
             let (open, there) = (lane.below(all(left - 1.5)), lane.below(all(left - 0.5)));
@@ -157,7 +157,8 @@ impl Wide for Links<'_> {
 #[allow(clippy::inline_always)]
 #[inline(always)]
 pub(crate) fn pull<S: Simd>(
-    (cage, nominal): (&scene::CageLinks, f64),
+    cage: &scene::CageLinks,
+    nominal: f64,
     [dx, dy, dvx, dvy]: [Vector<S>; 4],
 ) -> [Vector<S>; 2] {
     let all = |x: f64| dx.same(x);

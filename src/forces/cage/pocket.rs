@@ -124,11 +124,11 @@ pub(super) fn wall(
     ball: &InPocket,
 ) -> Option<Wall> {
     let (r, e) = (towards(cage, turning, pocket), ball.centre - turning.centre);
-    reaches(cage, r, e).then(|| pressed(cage, turning, (r, e), ball))
+    reaches(cage, r, e).then(|| pressed(cage, turning, r, e, ball))
 }
 
 /// Force of a ball beyond the clearance.
-fn pressed(cage: &CageModel, turning: &Turning, (r, e): (V2, V2), ball: &InPocket) -> Wall {
+fn pressed(cage: &CageModel, turning: &Turning, r: V2, e: V2, ball: &InPocket) -> Wall {
     let (mut normal, mut depth) = match cage.carried {
         Carried::Balls => {
             let q = e - r * cage.radius;

@@ -53,7 +53,7 @@ impl Force for CageRings {
     fn add(&self, model: &Model, at: &Instant<'_>, sums: &mut ForceSums<'_>) {
         for row in at.rows.clone() {
             if let Some(cage) = &model.rows[row].cage {
-                add(model, (row, cage), at, sums);
+                add(model, row, cage, at, sums);
             }
         }
     }
@@ -63,7 +63,7 @@ impl Force for CageRings {
         for (at, row) in model.rows.iter().enumerate() {
             let Some(cage) = &row.cage else { continue };
             let (turning, balls) = motions(model, y, at);
-            for wall in walls((row, cage), &turning, |k| balls[k]).flatten() {
+            for wall in walls(row, cage, &turning, |k| balls[k]).flatten() {
                 account.cage += wall.energy;
                 account.power += wall.power;
             }
@@ -107,7 +107,7 @@ impl Force for CageRings {
 }
 
 /// Forces of the cage of a row, and on it.
-fn add(model: &Model, (at, cage): (usize, &CageModel), on: &Instant<'_>, sums: &mut ForceSums<'_>) {
+fn add(model: &Model, at: usize, cage: &CageModel, on: &Instant<'_>, sums: &mut ForceSums<'_>) {
     let (row, body, state) = (&model.rows[at], model.layout().cage(at), on.state);
     let centre = match cage.carried {
         Carried::Held => BodyId::OUTER,
@@ -216,7 +216,8 @@ pub(crate) fn carrier(model: &Model, row: usize) -> BodyId {
 }
 
 fn walls<'a>(
-    (row, cage): (&RowModel, &'a CageModel),
+    row: &RowModel,
+    cage: &'a CageModel,
     turning: &'a Turning,
     ball: impl Fn(usize) -> InPocket + 'a,
 ) -> impl Iterator<Item = Option<Wall>> + 'a {
@@ -236,7 +237,7 @@ pub(crate) fn pocket_forces(model: &Model, y: &[f64], at: usize) -> Vec<f64> {
             if leads { wall.force } else { -wall.force }
         })
     };
-    walls((row, cage), &turning, |k| balls[k])
+    walls(row, cage, &turning, |k| balls[k])
         .enumerate()
         .map(force)
         .collect()
