@@ -23,10 +23,10 @@ import polars as pl
 
 import ballrace as br
 import studies
-from ballrace._ellipse import axis_ratio
 from ballrace.paper.measures import orbit, passages
 from ballrace.paper.simulations import FS as FS_OF_PAPER
 from ballrace.paper.simulations import SETTLED, dynamic
+from ballrace.plot.ellipse import axis_ratio
 from ballrace.scene import Lubricant, MotionProbe, OilLayer, Row
 from studies import Study, cost_of, draw_costs
 

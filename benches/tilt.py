@@ -27,9 +27,9 @@ from scipy.special import ellipe
 
 import ballrace as br
 import studies
-from ballrace._ellipse import axis_ratio
 from ballrace.paper.simulations import FS as FS_OF_PAPER
 from ballrace.paper.simulations import dynamic
+from ballrace.plot.ellipse import axis_ratio
 from ballrace.scene import (
     Coulomb,
     Defect,

@@ -16,8 +16,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from . import _arrays, defects, frequencies, presets, scene  # noqa: F401 (the first for its effect)
-from ._later import later
+from . import defects, frequencies, presets, scene
+from ._base import arrays as _arrays  # noqa: F401 (for its effect)
+from ._base.later import later
 from .errors import (
     AccuracyWarning,
     BallraceError,
@@ -62,7 +63,7 @@ _MOVED = {
 
 if TYPE_CHECKING:
     from . import diagnosis, learn, machines, measuring, plot, spectra
-    from ._features import features
+    from ._results.features import features
     from .bearings import Bearing, Pedestal, bearing, catalogue
     from .campaigns import Campaign, campaign, grid, latin_hypercube, scatter, sobol
     from .channel import Channel
@@ -91,7 +92,7 @@ else:
     _found = later(
         __name__,
         {
-            "_features": ("features",),
+            "_results.features": ("features",),
             "bearings": ("Bearing", "Pedestal", "bearing", "catalogue"),
             "campaigns": ("Campaign", "campaign", "grid", "latin_hypercube", "scatter", "sobol"),
             "channel": ("Channel",),

@@ -21,8 +21,8 @@ from typing import TYPE_CHECKING, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
-from ._numbers import real_row
-from ._units import canonical, in_unit
+from ._base.numbers import real_row
+from ._base.units import canonical, in_unit
 from .errors import SceneError
 from .scene import Scene
 

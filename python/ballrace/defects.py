@@ -20,7 +20,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any, Literal
 
-from ._numbers import positive
+from ._base.numbers import positive
 from .errors import SceneError
 from .scene import Cap, Dent, Floor, Patch, Pit, SteepPatch, WidthProfile
 

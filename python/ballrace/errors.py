@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from ._text import printable
+from ._base.text import printable
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

@@ -8,8 +8,8 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from . import _core
-from ._html import folded
-from ._results import Record
+from ._base.html import folded
+from ._results.entries import Record
 from .errors import SceneError
 from .scene.scene import checked_scene
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ._numbers import positive, real
+from ._base.numbers import positive, real
 from .bearings import Bearing, bearing, catalogue
 from .bearings.build import metal
 from .channel import Channel

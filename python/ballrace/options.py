@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
-from ._document import Part
-from ._numbers import counted, real
+from ._base.document import Part
+from ._base.numbers import counted, real
 from .errors import SceneError
 from .scene import Method
 

@@ -9,7 +9,7 @@ from dataclasses import replace
 from typing import Literal, get_args
 
 from . import _core
-from ._numbers import finite
+from ._base.numbers import finite
 from .errors import SceneError
 from .scene import Lubricant, Scene
 from .scene.lubricant import chosen

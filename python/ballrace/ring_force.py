@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 
-from ._numbers import real
+from ._base.numbers import real
 from .errors import SceneError
 from .scene.bearing import RingName
 

@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
-from ._arguments import knows
+from ._base.arguments import knows
+from ._base.libraries import needed
+from ._base.numbers import counted, real, real_row
 from ._io.whole import whole
-from ._libraries import needed
-from ._numbers import counted, real, real_row
 from .errors import BallraceError, SceneError
 from .scene import SpeedDrive
 from .scene.scene import checked_scene
@@ -168,7 +168,7 @@ class StiffnessTable:
         Columns are the loads by their names [N], ``speed`` [rad/s], and ``kxx``, ``kxy``, …, ``cbb`` in SI units,
         with ``a`` and ``b`` for the tilts about x and y.
         """
-        from ._polars import pl
+        from ._base.polars import pl
 
         cases, speeds = self.stiffness.shape[:2]
         columns = {name: np.repeat(values, speeds) for name, values in self.loads.items()}

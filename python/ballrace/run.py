@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any, Literal, ParamSpec, TypeAlias, TypeVar
 import numpy as np
 
 from . import _core
+from ._base.progress import Bar
+from ._base.text import printable
 from ._io.files import as_path, check_output
-from ._io.record import Scanned, metadata, writing
-from ._progress import Bar
-from ._text import printable
+from ._results.file import Scanned, metadata, writing
 from .errors import AccuracyWarning, SceneError, SceneWarning
 from .options import Run, Start
 from .ring_force import passed, warnings_of

@@ -8,16 +8,16 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from . import _core
-from ._features import feature_options
-from ._html import paragraph, points, waveform
-from ._interrupt import interrupted_once
+from ._base.html import paragraph, points, waveform
+from ._base.interrupt import interrupted_once
+from ._base.numbers import read_only
+from ._base.text import printable
 from ._io.files import PARQUET, as_path
 from ._io.parquet import read_sealed, scan_sealed, sealing
-from ._io.record import Scanned, described, metadata, samples, unless_damaged
 from ._io.whole import whole
-from ._numbers import read_only
-from ._results import Record, Touched
-from ._text import printable
+from ._results.entries import Record, Touched
+from ._results.features import feature_options
+from ._results.file import Scanned, described, metadata, samples, unless_damaged
 from .recordings.columns import Columns
 from .recordings.scenes import origin_of, shaft_of
 from .scene import Scene
@@ -193,7 +193,7 @@ class Signals(Columns):
     def slices(self) -> pl.DataFrame | None:
         """Forces of single slices, a line each, as asked for by the probes ``slices``; None without them."""
         if isinstance(self._slices, Mapping):
-            from ._polars import pl
+            from ._base.polars import pl
 
             self._slices = pl.DataFrame(self._slices)
         return self._slices

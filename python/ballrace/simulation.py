@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from . import _core
-from ._document import encode
-from ._numbers import finite, positive, real, real_row
-from ._snapshot import Snapshot, joined
+from ._base.document import encode
+from ._base.numbers import finite, positive, real, real_row
+from ._results.snapshot import Snapshot, joined
 from .errors import SceneError
 from .ring_force import passed, warnings_of
 from .run import request, shown, warn
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from ._snapshot import Piece
+    from ._results.snapshot import Piece
     from .ring_force import RingForce
     from .scene import Method
 

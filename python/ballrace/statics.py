@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
-from ._html import paragraph, points, table
-from ._numbers import counted
+from ._base.html import paragraph, points, table
+from ._base.numbers import counted
 from .errors import SceneError, SceneWarning
 from .ring_force import passed
 from .scene.scene import checked_scene
@@ -189,7 +189,7 @@ class Equilibrium:
 
     def to_polars(self) -> pl.DataFrame:
         """Return a table with a line per ball and the columns ``row``, ``ball``, ``angle``, …."""
-        from ._polars import pl
+        from ._base.polars import pl
 
         names = ["row", "ball", *_BALL]
         names += [f"{race}_{quantity}" for race in ("outer", "inner") for quantity in _CONTACT]

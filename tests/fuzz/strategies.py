@@ -15,7 +15,7 @@ import hypothesis.strategies as st
 from hypothesis.strategies import DrawFn, SearchStrategy
 
 import ballrace as br
-from ballrace._document import Part, Variant
+from ballrace._base.document import Part, Variant
 from ballrace.scene import Scene
 
 S = br.scene

@@ -21,6 +21,18 @@ if TYPE_CHECKING:
 PACKAGE = Path(ballrace.__file__).parent
 ROOT = Path(__file__).parents[2]
 
+FLOORS = {
+    "base": "errors _base _core _io",
+    "scene": "scene defects channel duty bearings frequencies.kinematic ratings.load_rating",
+    "records": "recordings signals _results spectra.checks",
+    "engine": "options statics model ring_force rotor explanation simulation run machines presets",
+    "analysis": "frequencies ratings spectra measuring noise campaigns",
+    "judgement": "diagnosis trending learn datasets",
+    "faces": """plot report explore demo paper cli __main__
+        diagnosis.page diagnosis.picture diagnosis.size_picture trending.picture datasets.campaign""",
+}
+"""The parts of the package, floor by floor: each imports its own floor and those above it in this table."""
+
 
 def modules() -> dict[str, Path]:
     """All modules by their dotted names, the compiled one by its stub."""
@@ -50,27 +62,48 @@ def hands_on(node: ast.AST) -> bool:
     return only and isinstance(last.value.func, ast.Name) and last.value.func.id in imported
 
 
-def statements(node: ast.AST) -> Iterator[ast.AST]:
-    """All below a node, but for methods that only hand on."""
+def statements(node: ast.AST, handed: bool = False) -> Iterator[tuple[ast.AST, bool]]:
+    """All below a node, and whether a method that only hands on has it."""
     for child in ast.iter_child_nodes(node):
-        if not (isinstance(node, ast.ClassDef) and hands_on(child)):
-            yield child
-            yield from statements(child)
+        of_child = handed or (isinstance(node, ast.ClassDef) and hands_on(child))
+        yield child, of_child
+        yield from statements(child, of_child)
+
+
+def floor(name: str) -> int:
+    """The floor of a module, counted from the lowest: that of the longest part of its name that has one."""
+    floors = {part: i for i, parts in enumerate(FLOORS.values()) for part in parts.split()}
+    name = name.removeprefix("ballrace.")
+    while name not in floors:
+        assert "." in name, f"{name} has no floor"
+        name = name.rpartition(".")[0]
+    return floors[name]
+
+
+def may_be_handed(package: str, to: str) -> bool:
+    """Whether a method in a package may hand on to a module above it: a face, or a file beside."""
+    return floor(to) == len(FLOORS) - 1 or to.rpartition(".")[0] == package
 
 
 def imported(name: str, path: Path, known: set[str], *, everywhere: bool) -> set[str]:
-    """Modules that a module imports as it is loaded; or everywhere, in functions and for types too."""
+    """Modules that a module imports as it is loaded; or everywhere, in functions and for types too.
+
+    A method that only hands on may call a face or a file of its own package, and nothing else.
+    """
     package = name if path.name == "__init__.py" else name.rpartition(".")[0]
     tree = ast.parse(path.read_text(encoding="utf-8"))
     found = set()
-    for node in statements(tree) if everywhere else tree.body:
+    for node, handed in statements(tree) if everywhere else ((node, False) for node in tree.body):
         if isinstance(node, ast.ImportFrom) and node.level:
             base = ".".join(package.split(".")[: len(package.split(".")) - node.level + 1])
             base = f"{base}.{node.module}" if node.module else base
             members = {f"{base}.{alias.name}" for alias in node.names}
             # `from . import x` means the module x if there is one, and what the package defines if there is none.
-            found |= (members & known) or {base}
-    return found & known
+            modules = ((members & known) or {base}) & known
+            if handed:
+                modules = {m for m in modules if not may_be_handed(package, m)}
+            found |= modules
+    return found
 
 
 @pytest.mark.parametrize("everywhere", [False, True])
@@ -86,6 +119,19 @@ def test_modules_import_each_other_one_way(everywhere: bool) -> None:
     assert order.index("ballrace.scene.time") < order.index("ballrace.scene.load")
     if everywhere:
         assert order.index("ballrace.plot") < order.index("ballrace.paper.report")
+
+
+def test_floors_import_those_below() -> None:
+    paths = modules()
+    for name, path in paths.items():
+        if name == "ballrace":
+            continue
+        for other in imported(name, path, set(paths), everywhere=True) - {"ballrace"}:
+            assert floor(other) <= floor(name), (
+                f"{name} imports {other}, which stands on a floor above"
+            )
+    loose = {path.stem for path in PACKAGE.glob("_*.py")} - {"__init__", "__main__"}
+    assert not loose, "a private module belongs into _base, _io or _results"
 
 
 def test_an_import_loads_what_describes_a_scene() -> None:

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 import ballrace as br
-from ballrace._io.record import metadata
+from ballrace._results.file import metadata
 from interface import interface
 
 FOLDER = Path(__file__).parents[1] / "documents"

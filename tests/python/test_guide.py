@@ -15,7 +15,7 @@ import pytest
 
 import ballrace as br
 import ballrace.scene as s
-from ballrace._document import Part, Variant
+from ballrace._base.document import Part, Variant
 
 ROOT = Path(__file__).parents[2]
 GUIDE = ROOT / "docs"

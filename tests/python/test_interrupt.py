@@ -336,7 +336,7 @@ def test_ctrl_c_while_numpy_is_found_is_ctrl_c() -> None:
         "for name in [name for name in sys.modules if name.startswith('numpy') and 'multiarray' in name]:\n"
         "    sys.modules[name] = Interrupted()\n"
         "try:\n"
-        "    import ballrace._arrays\n"
+        "    import ballrace._base.arrays\n"
         "except KeyboardInterrupt:\n"
         "    print('interrupted')"
     )

@@ -11,7 +11,7 @@ import jsonschema
 import pytest
 
 import ballrace as br
-from ballrace._document import decode
+from ballrace._base.document import decode
 from ballrace.scene import Lubricant
 from ballrace.scene.schema import schema
 from oils import astm_d341

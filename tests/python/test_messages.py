@@ -9,8 +9,8 @@ import pytest
 
 import ballrace as br
 import messages
-from ballrace._progress import Bar
-from ballrace._text import printable
+from ballrace._base.progress import Bar
+from ballrace._base.text import printable
 from ballrace.cli import main
 from sweeps import SCENE, run
 

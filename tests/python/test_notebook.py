@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 
 import ballrace as br
-from ballrace._html import waveform
-from ballrace._progress import Bar
+from ballrace._base.html import waveform
+from ballrace._base.progress import Bar
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -21,7 +21,7 @@ from plotly.subplots import make_subplots
 
 import ballrace as br
 from ballrace import plot
-from ballrace._ellipse import axis_ratio, semi_axes
+from ballrace.plot.ellipse import axis_ratio, semi_axes
 from ballrace.plot.outlines import groove, outlines
 from ballrace.plot.style import COLOURS
 

@@ -23,7 +23,7 @@ import pytest
 from scipy.io import savemat, wavfile
 
 import ballrace as br
-from ballrace import _memory
+from ballrace._base import memory as _memory
 from ballrace.recordings import apart
 
 if TYPE_CHECKING:
@@ -130,7 +130,7 @@ def test_memory_is_limited_and_the_limit_can_be_raised(
 
 NO_PROC = """
 import pathlib
-from ballrace import _memory
+from ballrace._base import memory as _memory
 _memory._STATM = pathlib.Path('/nowhere')
 def peak(status=pathlib.Path('/proc/self/status')):
     return 1024 * int(status.read_text().split('VmHWM:')[1].split()[0])

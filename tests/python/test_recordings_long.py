@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import ballrace as br
-from ballrace import _memory
+from ballrace._base import memory as _memory
 
 FS = 2000.0
 N = 6000

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 import ballrace.recordings
-from ballrace import _units
+from ballrace._base import units as _units
 from ballrace.recordings import formats
 
 ROOT = Path(__file__).parents[2]

@@ -19,7 +19,7 @@ import pytest
 import ballrace as br
 from ballrace import _core
 from ballrace import scene as s
-from ballrace._document import INSTEAD, Part, Told, Variant, decode, encode
+from ballrace._base.document import INSTEAD, Part, Told, Variant, decode, encode
 
 MINIMAL = s.Row(
     ball_count=9,

@@ -233,7 +233,7 @@ scene = replace(scene, probes={**scene.probes, **probes})
 ENDLESS = (
     WIDE
     + """
-from ballrace._io.record import Writer
+from ballrace._results.file import Writer
 take = Writer.take
 def take_and_print(self, columns):
     take(self, columns)
@@ -266,7 +266,7 @@ def test_ctrl_c_leaves_nothing(tmp_path: Path) -> None:
 JOINING = """
 import signal, sys, threading, time, os
 import numpy as np, polars as pl
-from ballrace._io.record import Writer, writing
+from ballrace._results.file import Writer, writing
 values = np.random.default_rng(0).normal(size=(20, 65536))
 with writing("record.parquet") as writer:
     for k in range(40):

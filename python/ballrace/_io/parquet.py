@@ -16,7 +16,7 @@ import os
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, BinaryIO, TypeVar
 
-from .._interrupt import interrupted_once
+from .._base.interrupt import interrupted_once
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -38,7 +38,7 @@ _PART = 1 << 20
 @contextmanager
 def writing_to(path: str | os.PathLike[str]) -> Iterator[None]:
     """Have what polars cannot write, as to a full disk, be an ``OSError`` that names the file."""
-    from .._polars import pl
+    from .._base.polars import pl
 
     try:
         yield
@@ -80,7 +80,7 @@ def read_sealed(
     OSError
         It cannot be read.
     """
-    from .._polars import pl
+    from .._base.polars import pl
 
     is_sealed(path)
     if check is not None:
@@ -99,7 +99,7 @@ def scan_sealed(path: Path) -> dict[str, str]:
     OSError
         It cannot be read.
     """
-    from .._polars import pl
+    from .._base.polars import pl
 
     is_sealed(path)
     return _unless_damaged(lambda: pl.read_parquet_metadata(path))
@@ -113,7 +113,7 @@ def columns_and_rows(path: Path) -> tuple[list[str], int]:
     ValueError
         It is damaged, or not Parquet.
     """
-    from .._polars import pl
+    from .._base.polars import pl
 
     def read() -> tuple[list[str], int]:
         table = pl.scan_parquet(path, glob=False)
@@ -124,7 +124,7 @@ def columns_and_rows(path: Path) -> tuple[list[str], int]:
 
 def read_columns(path: Path, names: list[str]) -> pl.DataFrame:
     """Read some columns of a Parquet file whose hash is known to be right."""
-    from .._polars import pl
+    from .._base.polars import pl
 
     return interrupted_once(lambda: pl.read_parquet(path, columns=names, glob=False))
 
@@ -137,7 +137,7 @@ def read_bytes(data: bytes) -> tuple[pl.DataFrame, dict[str, str]]:
     ValueError
         It is not Parquet.
     """
-    from .._polars import pl
+    from .._base.polars import pl
 
     table = _unless_damaged(lambda: interrupted_once(lambda: pl.read_parquet(io.BytesIO(data))))
     return table, _unless_damaged(lambda: pl.read_parquet_metadata(io.BytesIO(data)))
@@ -210,7 +210,7 @@ def _hash(file: BinaryIO, start: int, footer: bytes) -> bytes:
 
 def _unless_damaged(read: Callable[[], T]) -> T:
     """Read by polars, whose errors come in several kinds; a panic is no ``Exception``."""
-    from .._polars import pl
+    from .._base.polars import pl
 
     try:
         return read()

@@ -30,7 +30,7 @@ which moves BPFO by less than 0.7 %. Makers choose different balls for some size
 
 from __future__ import annotations
 
-from .._later import listed
+from .._base.later import listed
 from .build import bearing
 from .entry import Bearing, Uncertainty
 from .fits import Seat

@@ -6,8 +6,8 @@ import math
 from dataclasses import replace
 from typing import TYPE_CHECKING, Literal
 
-from .._arguments import knows
-from .._numbers import finite, positive
+from .._base.arguments import knows
+from .._base.numbers import finite, positive
 from ..errors import SceneError
 from ..scene import Defect, Load, Lubricant, Ring, Row, Scene, Spring, Support, Texture
 from .clearance import radial_clearance

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from .._numbers import real
+from .._base.numbers import real
 from ..errors import SceneError
 
 __all__ = ["CLASSES", "clearance_limits", "radial_clearance"]

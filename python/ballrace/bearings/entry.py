@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-from .. import frequencies
+from ..frequencies import kinematic
 from .sources import Sources
 
 __all__ = ["Bearing", "Kind", "Uncertainty"]
@@ -31,7 +31,7 @@ class Uncertainty:
     ball_count: int
     ball_diameter: float
     pitch_diameter: float
-    orders: frequencies.Orders
+    orders: kinematic.Orders
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -87,9 +87,9 @@ class Bearing:
         return 2 if self.kind == "double_row" else 1
 
     @property
-    def orders(self) -> frequencies.Orders:
+    def orders(self) -> kinematic.Orders:
         """Kinematic orders at the nominal contact angle."""
-        return frequencies.orders(
+        return kinematic.orders(
             self.ball_count, self.ball_diameter, self.pitch_diameter, self.contact_angle
         )
 

@@ -10,7 +10,7 @@ import math
 from dataclasses import replace
 from typing import cast, get_args
 
-from .._numbers import real
+from .._base.numbers import real
 from ..errors import SceneError
 from ..frequencies.kinematic import Orders, orders
 from ..ratings.load_rating import dynamic_rating, static_rating

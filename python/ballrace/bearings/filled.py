@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, TypeVar
 
 from .. import _core
-from .._numbers import finite
+from .._base.numbers import finite
 from ..errors import EquilibriumError, SceneError
 from ..scene import (
     CageRing,

@@ -6,7 +6,7 @@ import bisect
 import re
 from dataclasses import dataclass
 
-from .._numbers import real
+from .._base.numbers import real
 from ..errors import SceneError
 
 __all__ = ["Interference", "Seat", "bearing_limits", "interference", "limits"]

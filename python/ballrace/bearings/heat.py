@@ -10,7 +10,7 @@ import math
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from .._numbers import positive, real
+from .._base.numbers import positive, real
 from ..errors import EquilibriumError, SceneError
 from .build import asked_clearance
 from .clearance import radial_clearance

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from .._numbers import positive
+from .._base.numbers import positive
 from ..errors import SceneError
 
 __all__ = ["Pedestal"]

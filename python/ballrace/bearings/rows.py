@@ -119,7 +119,7 @@ class Catalogue(Mapping[str, Bearing]):
 
     def to_polars(self) -> pl.DataFrame:
         """Return a table with a line per bearing, lengths in metres and loads in newtons."""
-        from .._polars import pl
+        from .._base.polars import pl
 
         rows = []
         for row in self._rows.values():

@@ -21,7 +21,7 @@
 
 from __future__ import annotations
 
-from .._later import listed
+from .._base.later import listed
 from .bearings import scatter
 from .designs import grid, latin_hypercube, sobol
 from .estimate import Estimate

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from .. import _core
-from .._numbers import counted
-from .._text import printable
+from .._base.numbers import counted
+from .._base.text import printable
 from ..errors import CampaignError, CampaignWarning, SceneError, SceneWarning
 from ..options import BUDGET, DECIDING
 from ..scene import Scene

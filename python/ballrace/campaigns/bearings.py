@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .._numbers import counted, real
+from .._base.numbers import counted, real
 from ..errors import SceneError
 from .designs import counted_cases
 
@@ -75,7 +75,7 @@ def scatter(
     >>> cases.height, cases["bearing_id"].n_unique()
     (2000, 1000)
     """
-    from .._polars import pl
+    from .._base.polars import pl
 
     n, seed = counted_cases(n), counted("seed", seed, 0)
     deviations = {

@@ -10,7 +10,7 @@ from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any
 
 from .. import _core
-from .._document import encode
+from .._base.document import encode
 from ..errors import SceneError
 from ..options import BUDGET, DECIDING, EMPTY, document
 from ..scene import Scene
@@ -94,7 +94,7 @@ class Cases:
 
     def frame(self) -> pl.DataFrame:
         """Return the table with case ids: the left part of the manifest."""
-        from .._polars import pl
+        from .._base.polars import pl
 
         columns = [pl.Series("case_id", [case.id for case in self.cases], dtype=pl.String)]
         columns += [_series(name, [row.get(name) for row in self._rows]) for name in self.names]
@@ -222,7 +222,7 @@ def _plain(value: Any) -> Any:
 
 def _series(name: str, values: Iterable[Any]) -> pl.Series:
     """Return a column; where its cells are of different kinds, as JSON text."""
-    from .._polars import pl
+    from .._base.polars import pl
 
     # A label may well be no number.
     cells = [value if isinstance(value, float) else _plain(value) for value in values]

@@ -30,7 +30,7 @@ BUDGET = {"budget": "String", "budget_limit": "Float64"}
 
 def schema() -> dict[str, Any]:
     """Return the types of the columns that every row of results has."""
-    from .._polars import pl
+    from .._base.polars import pl
 
     types = {**STATISTICS, **BUDGET, **dict.fromkeys(FAULTS, "Boolean")}
     return {name: getattr(pl, types.get(name, "String")) for name in (*BASE, *BUDGET)}
@@ -43,7 +43,7 @@ def found_in(table: pl.DataFrame, features: Iterable[str]) -> list[str]:
 
 def check_results(frame: pl.DataFrame) -> None:
     """Refuse a table that has the right hash but was not written as rows of results."""
-    from .._polars import pl
+    from .._base.polars import pl
 
     base = schema()
     if not {"case_id", "status"} <= set(frame.columns):

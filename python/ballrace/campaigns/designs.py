@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .._document import Part
-from .._numbers import counted, real
+from .._base.document import Part
+from .._base.numbers import counted, real
 from ..errors import SceneError
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ def grid(values: Mapping[str, Iterable[object]]) -> pl.DataFrame:
     >>> table.shape, table.row(1)
     ((6, 2), (0.0, 0.001))
     """
-    from .._polars import pl
+    from .._base.polars import pl
 
     lists = {name: _listed(name, column) for name, column in _named("values", values).items()}
     count = math.prod(len(column) for column in lists.values())
@@ -79,7 +79,7 @@ def _listed(name: str, column: object) -> list[object]:
 
 def _series(name: str, column: list[object]) -> pl.Series:
     """Return a column whose cells are what was given, as objects where polars has no type for them."""
-    from .._polars import pl
+    from .._base.polars import pl
 
     # A number beside a word would become a word, and beside a list there is no type for both.
     kinds = (str, bytes, Mapping, Sequence, np.ndarray, Part, Real, np.bool_)
@@ -175,7 +175,7 @@ def check_cases(name: str, count: int) -> None:
 
 
 def _scaled(unit: Any, ranges: Mapping[str, tuple[float, float]]) -> pl.DataFrame:
-    from .._polars import pl
+    from .._base.polars import pl
 
     columns = zip(ranges.items(), unit.T, strict=True)
     return pl.DataFrame(

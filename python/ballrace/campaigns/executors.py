@@ -15,8 +15,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 from urllib.parse import urlsplit
 
+from .._base.text import printable
 from .._core import available_threads
-from .._text import printable
 from ..errors import BallraceError, CampaignError, CampaignWarning, from_record, record_of
 from .handout import Handout, has_died, pool_like
 from .progress import Counts

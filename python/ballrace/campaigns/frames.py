@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from .._arguments import whole_text
+from .._base.arguments import whole_text
 from ..errors import SceneError
 
 _KINDS = "a table: polars, pandas, Arrow, a list of dicts or a dict of columns"
@@ -30,7 +30,7 @@ def rows_of(table: object) -> tuple[list[dict[str, Any]], list[str]]:
     SceneError
         It is no table, or has no rows.
     """
-    from .._polars import pl
+    from .._base.polars import pl
 
     if isinstance(table, Sequence) and all(isinstance(row, Mapping) for row in table):
         rows = [dict(row) for row in table]

@@ -6,8 +6,8 @@ import json
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+from .._base.text import printable
 from .._io.parquet import collected
-from .._text import printable
 from ..scene import Scene
 from .cases import apply
 from .columns import BASE, BUDGET, found_in
@@ -65,7 +65,7 @@ class Kept:
         its metadata have ``ballrace.digest``, by which those who read it without this package can check it (see
         the guide).
         """
-        from .._polars import pl
+        from .._base.polars import pl
 
         if not self._clipped:
             return self._finished
@@ -76,7 +76,7 @@ class Kept:
     @cached_property
     def _finished(self) -> pl.DataFrame:
         """The manifest as it is written."""
-        from .._polars import pl
+        from .._base.polars import pl
 
         results = self._results
         kept = (name for name in results.columns if name not in (*BASE, *BUDGET))
@@ -100,7 +100,7 @@ class Kept:
     @property
     def warned(self) -> pl.DataFrame:
         """The rows of the manifest that ran but need a check."""
-        from .._polars import pl
+        from .._base.polars import pl
 
         return self.manifest.filter(pl.col("warnings").is_not_null())
 
@@ -117,7 +117,7 @@ class Kept:
         CampaignError
             A shard is missing or damaged.
         """
-        from .._polars import pl
+        from .._base.polars import pl
 
         kept = self.manifest.filter(pl.col("signals").is_not_null()).unique(
             "case_id", maintain_order=True
@@ -141,7 +141,7 @@ class Kept:
         CampaignError
             The shard that holds them is missing or damaged.
         """
-        from .._polars import pl
+        from .._base.polars import pl
 
         row = self._finished.filter(pl.col("case_id") == case_id, pl.col("signals").is_not_null())
         if row.is_empty():

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .._features import features
-from .._numbers import counted, positive, real
+from .._base.numbers import counted, positive, real
+from .._results.features import features
 from ..errors import AccuracyWarning, SceneError
 from ..measuring.chain import CLIPPED, Measurement
 from ..measuring.chain import measured as by_chain
@@ -94,7 +94,7 @@ def features_table(
     lines: Iterator[Measured], skip: float, band: tuple[float, float] | None
 ) -> pl.DataFrame:
     """Return a line for each measurement: its labels, and its features as ``sensor.rms`` and so on."""
-    from .._polars import pl
+    from .._base.polars import pl
 
     labels, found = [], []
     for line in lines:
@@ -116,7 +116,7 @@ def windows_table(
     SceneError
         The length, the hop or what is skipped is not usable.
     """
-    from .._polars import pl
+    from .._base.polars import pl
 
     length = counted("length", length, 1)
     hop = length if hop is None else counted("hop", hop, 1)

@@ -7,8 +7,8 @@ import time
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple, TextIO
 
-from .._progress import is_watched
-from .._text import printable
+from .._base.progress import is_watched
+from .._base.text import printable
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .._html import paragraph
+from .._base.html import paragraph
 from .._io.files import as_path
 from ..errors import SceneError
 from .columns import FAULTS

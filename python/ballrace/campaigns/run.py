@@ -8,10 +8,10 @@ import os
 import warnings
 from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack, overload
 
-from .._features import feature_options
+from .._base.numbers import counted
+from .._base.text import printable
 from .._io.files import as_path
-from .._numbers import counted
-from .._text import printable
+from .._results.features import feature_options
 from ..errors import CampaignError, CampaignWarning, SceneError
 from ..options import BUDGET, DECIDING, Run, document
 from .arguments import (

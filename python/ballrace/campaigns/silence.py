@@ -6,7 +6,7 @@ import time
 import warnings
 from typing import TYPE_CHECKING, Any
 
-from .._text import printable
+from .._base.text import printable
 from ..errors import CampaignError, CampaignWarning
 
 if TYPE_CHECKING:

@@ -213,7 +213,7 @@ class Store:
         CampaignError
             A shard is damaged, or the folder cannot be read.
         """
-        from .._polars import pl
+        from .._base.polars import pl
 
         # A shard of an older version may lack columns.
         frames = [pl.DataFrame(schema=schema())]
@@ -317,7 +317,7 @@ def digest_of(frame: pl.DataFrame) -> str:
 
 def _joined(frames: list[pl.DataFrame]) -> pl.DataFrame:
     """Join tables in parts, between which Ctrl-C is checked: polars takes more than a second for 5000 at once."""
-    from .._polars import pl
+    from .._base.polars import pl
 
     while len(frames) > 1:
         parts = range(0, len(frames), _AT_ONCE)

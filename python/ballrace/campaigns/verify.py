@@ -37,7 +37,7 @@ def verify(folder: str | os.PathLike[str]) -> pl.DataFrame:
     CampaignError
         It is no folder of a campaign.
     """
-    from .._polars import pl
+    from .._base.polars import pl
 
     root = as_path(folder, "folder").resolve()
     if not any((root / name).exists() for name in (*description.NAMES, "cases.parquet")):

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from .. import _core
-from .._text import printable
+from .._base.text import printable
 from ..errors import BallraceError, CampaignError, from_record, record_of
 from ..scene.defect import SURFACES
 from .columns import BUDGET, FAULTS, STATISTICS, schema
@@ -119,7 +119,7 @@ class Writer:
         self._rows, self._signals, self._size = [], [], 0
 
     def _write_signals(self) -> str:
-        from .._polars import pl
+        from .._base.polars import pl
 
         frames = []
         for case_id, raw in sorted(self._signals, key=lambda pair: pair[0]):
@@ -224,7 +224,7 @@ def record_failed(store: Store, failed: Iterable[tuple[str, BallraceError]]) -> 
 
 
 def _results(rows: list[dict[str, Any]]) -> Any:
-    from .._polars import pl
+    from .._base.polars import pl
 
     base = schema()
     names = list(dict.fromkeys(name for entry in rows for name in entry))

@@ -9,8 +9,8 @@ import signal
 import sys
 from typing import TYPE_CHECKING
 
-from .._libraries import MissingLibraryError
-from .._text import printable
+from .._base.libraries import MissingLibraryError
+from .._base.text import printable
 from ..errors import BallraceError, FileError, SceneError
 from . import about, campaigns, diagnosing, exploring, fmu, running, signals, statics, studies
 

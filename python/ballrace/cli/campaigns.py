@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .. import presets
+from .._base.text import printable
 from .._io.files import as_path
 from .._io.toml import loads
-from .._text import printable
 from ..campaigns.bearings import scatter
 from ..campaigns.designs import check_cases, grid, latin_hypercube, sobol
 from ..campaigns.result import Campaign
@@ -258,7 +258,7 @@ def _values(column: str, value: Any) -> list[Any]:
 
 
 def _file(path: Path) -> pl.DataFrame:
-    from .._polars import pl
+    from .._base.polars import pl
 
     try:
         match path.suffix.lower():

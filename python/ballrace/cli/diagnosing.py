@@ -6,8 +6,8 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING, get_args
 
-from .._text import printable
-from .._units import canonical
+from .._base.text import printable
+from .._base.units import canonical
 from ..diagnosis import diagnose
 from ..diagnosis.result import header_of, reason, width_of
 from ..diagnosis.severity import Machine

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, get_args
 
 from .. import presets
+from .._base.text import printable
 from .._io.files import check_output
-from .._text import printable
 from ..bearings import bearing
 from ..errors import SceneError
 from ..options import ARGUMENTS, Run

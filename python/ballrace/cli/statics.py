@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .._text import printable
+from .._base.text import printable
 from ..explanation import explain
 from ..ratings.life import RatingLife, rating_life
 from ..report.writing import check_page

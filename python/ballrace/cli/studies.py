@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from .. import demo, paper
+from .._base.progress import Bar
 from .._io.files import check_writable
-from .._progress import Bar
 from .arguments import Commands, added
 from .text import print_table
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .._text import printable
+from .._base.text import printable
 
 if TYPE_CHECKING:
     from pathlib import Path

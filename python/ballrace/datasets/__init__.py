@@ -8,7 +8,7 @@ that no bearing is in both parts.
 
 from __future__ import annotations
 
-from .._later import listed
+from .._base.later import listed
 from .reading import BearingDataset, read_bearing_dataset
 from .split import bearing_split
 

@@ -45,7 +45,7 @@ def classes_of(
     >>> classes_of(table, ["fault_ball", "fault_outer_race"], "label").to_list()
     ['ball+outer_race', 'healthy']
     """
-    from .._polars import pl
+    from .._base.polars import pl
 
     if columns is None:
         columns = next((names for names in _KNOWN if set(names) <= set(table.columns)), ())
@@ -61,7 +61,7 @@ def classes_of(
 
 def _joined(table: pl.DataFrame, names: tuple[str, ...]) -> pl.Series:
     """Return the names of the columns that are true, joined."""
-    from .._polars import pl
+    from .._base.polars import pl
 
     known = pl.all_horizontal(pl.col(name).is_not_null() for name in names)
     true = [pl.when(pl.col(n)).then(pl.lit(n.removeprefix("fault_"))) for n in names]

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .._base.numbers import real
+from .._base.polars import pl
 from .._io.files import as_path
 from .._io.parquet import collected
-from .._numbers import real
-from .._polars import pl
 from ..channel import Channel
 from ..errors import FileError
 from .layout import SCHEMA_VERSION

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .._numbers import counted, real
+from .._base.numbers import counted, real
 from ..errors import SceneError
 from .classes import classes_of
 

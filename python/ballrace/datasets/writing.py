@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .._interrupt import interrupted_once
+from .._base.interrupt import interrupted_once
 from .._io.files import as_path
 from .._io.parquet import writing_to
 from ..errors import SceneError
@@ -97,7 +97,7 @@ def _file(number: int) -> str:
 
 
 def _write_block(path: Path, block: list[tuple[str, NDArray[np.float32]]]) -> None:
-    from .._polars import pl
+    from .._base.polars import pl
 
     names, parts = zip(*block, strict=True)
     samples = pl.Series([pl.Series(part) for part in parts], dtype=pl.List(pl.Float32))
@@ -107,7 +107,7 @@ def _write_block(path: Path, block: list[tuple[str, NDArray[np.float32]]]) -> No
 
 
 def _write_table(folder: Path, rows: list[dict[str, Any]]) -> None:
-    from .._polars import pl
+    from .._base.polars import pl
 
     size = pl.col("fault_size_mm")
     level = pl.when(size == 0.0).then(0).otherwise(size.rank("dense").over("fault_type"))

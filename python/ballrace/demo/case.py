@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import presets
-from .._features import features
+from .._results.features import features
 from ..frequencies.kinematic import of_row
 from ..paper import Zone, zone
 from ..paper.simulations import healthy_at_bottom, slices_of

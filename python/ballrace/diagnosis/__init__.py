@@ -8,7 +8,7 @@
 
 from __future__ import annotations
 
-from .._later import listed
+from .._base.later import listed
 from .evidence import Evidence, Line
 from .procedure import diagnose
 from .result import Diagnosis

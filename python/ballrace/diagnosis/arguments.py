@@ -7,8 +7,8 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from .._numbers import real
-from .._units import ACCELERATIONS, VELOCITIES
+from .._base.numbers import real
+from .._base.units import ACCELERATIONS, VELOCITIES
 from ..errors import SceneError
 from ..frequencies.operating import FaultFrequencies, ring_rates, scene_rates
 from ..scene import Scene

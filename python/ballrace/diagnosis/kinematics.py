@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from typing import TypeAlias
 
-from .._numbers import counted, real
+from .._base.numbers import counted, real
 from ..bearings import Bearing, catalogue
 from ..errors import EquilibriumError, SceneError
 from ..frequencies.kinematic import Orders, of_row

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .._units import VELOCITIES
+from .._base.units import VELOCITIES
 from .upper import needed_edge, upper_edge
 
 if TYPE_CHECKING:

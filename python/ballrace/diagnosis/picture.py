@@ -30,7 +30,7 @@ def picture(
     of: Diagnosis, levels: Levels | None, part: Part | None, fig: go.Figure | None, layout: dict[str, Any]
 ) -> go.Figure:  # fmt: skip
     """Draw a diagnosis; see :meth:`ballrace.diagnosis.Diagnosis.plot`."""
-    from .._plotly import Figure, Scatter
+    from .._base.plotly import Figure, Scatter
 
     one = _chosen(of, levels, part)
     assert levels is not None
@@ -69,7 +69,7 @@ def _chosen(of: Diagnosis, levels: Levels | None, part: Part | None) -> Evidence
 
 def _add_expected(fig: go.Figure, one: Evidence) -> None:
     """Mark where lines were expected below the axis, and the significant ones at their tops."""
-    from .._plotly import Scatter
+    from .._base.plotly import Scatter
 
     name, colour, _, marker = SYMBOLS[one.part]
     places = [line.expected for line in one.lines]

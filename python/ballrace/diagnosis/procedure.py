@@ -6,7 +6,7 @@ from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
 
-from .._numbers import counted
+from .._base.numbers import counted
 from ..channel import channel_of
 from ..scene import Scene
 from .arguments import (

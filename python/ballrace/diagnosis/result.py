@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
-from .._html import paragraph, table
-from .._text import printable
+from .._base.html import paragraph, table
+from .._base.text import printable
 from .combs import Part
 from .envelopes import Levels
 from .evidence import Evidence

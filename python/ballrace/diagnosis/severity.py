@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
 
-from .._units import ACCELERATIONS
+from .._base.units import ACCELERATIONS
 from ..errors import SceneError
 
 if TYPE_CHECKING:

@@ -20,7 +20,7 @@ def size_picture(
     of: Sized | None, beside: Sized | None, fig: go.Figure | None, layout: dict[str, Any]
 ) -> go.Figure:
     """Draw an averaged pass; see :meth:`ballrace.diagnosis.Diagnosis.plot_size`."""
-    from .._plotly import Figure
+    from .._base.plotly import Figure
 
     fig = fig if fig is not None else Figure()
     _add_pass(fig, of, "this record", 0)
@@ -39,7 +39,7 @@ def size_picture(
 
 
 def _add_pass(fig: go.Figure, of: Sized | None, name: str, line: int) -> None:
-    from .._plotly import Scatter
+    from .._base.plotly import Scatter
 
     if of is None or of.averaged is None or of.width.value is None:
         why = "no width was looked for" if of is None else of.width.why

@@ -19,7 +19,7 @@ def parts():
     import marimo as mo
 
     import ballrace as br
-    from ballrace._text import printable
+    from ballrace._base.text import printable
     from ballrace.errors import BallraceError
     from ballrace.explore import at_rest, beside, chosen, live, picture, saved, sensor
     from ballrace.explore.controls import controls, named, taken

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .._html import paragraph, points, table
+from .._base.html import paragraph, points, table
 from ..report import words
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from .._ellipse import semi_axes
+from ..plot.ellipse import semi_axes
 from ..plot.outlines import circle, outlines
 from ..scene.defect import extent, widest
 from ..scene.drawing import seen_along_axis

@@ -9,7 +9,7 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .._text import printable
+from .._base.text import printable
 from .running import FS
 
 if TYPE_CHECKING:

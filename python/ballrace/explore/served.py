@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from urllib.error import URLError
 from urllib.request import ProxyHandler, build_opener
 
-from .._libraries import needed
+from .._base.libraries import needed
 from ..errors import BallraceError, SceneError
 from .chosen import read_file
 from .guard import POLICY

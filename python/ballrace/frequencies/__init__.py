@@ -6,7 +6,7 @@ Those at the contact angles of a load, or of a run, are :func:`ballrace.fault_fr
 
 from __future__ import annotations
 
-from .._later import listed
+from .._base.later import listed
 from .kinematic import Orders, bpfi, bpfo, bsf, ftf, of_row, orders
 
 __all__ = ["Orders", "bpfi", "bpfo", "bsf", "ftf", "of_row", "orders"]

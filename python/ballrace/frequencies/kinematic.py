@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from .. import _core
-from .._numbers import real
+from .._base.numbers import real
 from ..errors import SceneError
 
 if TYPE_CHECKING:

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from .. import _core, frequencies
-from .._numbers import counted, finite, real
+from .._base.numbers import counted, finite, real
 from ..bearings import Bearing, catalogue
 from ..errors import SceneError
 from ..scene import MotionProbe, Scene

@@ -76,7 +76,7 @@ def examples(
     >>> examples(out.to_windows(100, columns="outer.ay"), "outer.ay")
     <Examples: 5 windows of 100 samples: healthy 5>
     """
-    from .._polars import pl
+    from .._base.polars import pl
 
     if column not in table.columns:
         raise SceneError("column", repr(column), f"one of {', '.join(table.columns)}")
@@ -97,7 +97,7 @@ def examples(
 
 def _samples(column: pl.Series) -> NDArray[np.float32]:
     """Return the samples of all windows, a copy of its own."""
-    from .._polars import pl
+    from .._base.polars import pl
 
     if isinstance(column.dtype, pl.List) and column.list.len().n_unique() == 1:
         column = column.list.to_array(column.list.len()[0])

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import defects
-from .._numbers import real
+from .._base.numbers import real
 from ..bearings import bearing
 from ..errors import SceneError
 from ..scene import MotionProbe, Texture

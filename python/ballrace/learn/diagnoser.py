@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .._libraries import needed
-from .._numbers import counted, real
+from .._base.libraries import needed
+from .._base.numbers import counted, real
 from ..channel import channel_of
 from ..errors import SceneError
 from .envelope_lines import EnvelopeLines

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .._libraries import needed
-from .._numbers import real
+from .._base.libraries import needed
+from .._base.numbers import real
 from ..channel import Channel, Recorded
 from ..diagnosis.kinematics import kinematics_of
 from ..errors import SceneError

@@ -7,7 +7,7 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from .._numbers import real
+from .._base.numbers import real
 from ..channel import Channel, Recorded, channel_of
 from ..diagnosis.arguments import nominal_rate
 from ..errors import SceneError

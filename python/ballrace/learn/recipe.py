@@ -7,7 +7,7 @@ from dataclasses import KW_ONLY, dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal, get_args
 
-from .._numbers import real
+from .._base.numbers import real
 from ..bearings import Bearing, catalogue
 from ..bearings.build import asked_clearance
 from ..bearings.clearance import clearance_limits

@@ -12,7 +12,7 @@ All inner rings are one rigid body that tilts, all outer rings another, with the
 
 from __future__ import annotations
 
-from .._later import listed
+from .._base.later import listed
 from .forces import belt, force, gear
 from .pairs import Arrangement, pair
 from .reactions import Reaction, reactions

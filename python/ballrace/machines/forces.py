@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from .._numbers import finite, positive, real
+from .._base.numbers import finite, positive, real
 from ..errors import SceneError
 from ..scene import Load
 

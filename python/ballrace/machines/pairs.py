@@ -6,8 +6,8 @@ import math
 from dataclasses import replace
 from typing import Literal, get_args
 
-from .._arguments import knows
-from .._numbers import finite, positive
+from .._base.arguments import knows
+from .._base.numbers import finite, positive
 from ..bearings import Bearing, Pedestal, bearing, catalogue
 from ..bearings.filled import with_spin
 from ..errors import SceneError

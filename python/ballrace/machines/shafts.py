@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING, Literal
 
-from .._arguments import knows
-from .._numbers import real
+from .._base.arguments import knows
+from .._base.numbers import real
 from ..bearings import Bearing, Pedestal, catalogue
 from ..bearings.build import OUTER, asked_clearance, rows_of
 from ..bearings.filled import filled

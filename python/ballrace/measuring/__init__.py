@@ -38,7 +38,7 @@ percent at a tenth of the sampling rate. They are at rest as the record begins.
 
 from __future__ import annotations
 
-from .._later import listed
+from .._base.later import listed
 from .chain import Chain, Measurement, measure
 from .drawn import random_chains, random_machine
 from .housing import Housing, ImpulseResponse, MeasuredResponse, Mode, random_housing

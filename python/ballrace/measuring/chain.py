@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, TypedDict, Unpack
 import numpy as np
 from numpy.typing import NDArray
 
-from .._numbers import counted
+from .._base.numbers import counted
 from ..channel import Channel
 from ..errors import AccuracyWarning, SceneError
 from ..recordings.recording import Recording
@@ -180,7 +180,7 @@ class Measurement:
 
     def to_polars(self) -> pl.DataFrame:
         """Return a table with the time ``t`` and the column ``sensor``."""
-        from .._polars import pl
+        from .._base.polars import pl
 
         return pl.DataFrame({"t": self.t, "sensor": self.x})
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .._numbers import real_row
+from .._base.numbers import real_row
 from ..errors import SceneError
 
 if TYPE_CHECKING:

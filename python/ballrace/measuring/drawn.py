@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .._numbers import counted
+from .._base.numbers import counted
 from ..channel import Recorded
 from ..errors import SceneError
 from .chain import Chain

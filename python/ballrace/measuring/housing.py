@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._numbers import counted, finite, positive
+from .._base.numbers import counted, finite, positive
 from ..errors import SceneError
 from .checks import finite_row, rising
 

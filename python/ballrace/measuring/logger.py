@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .._numbers import counted, positive
+from .._base.numbers import counted, positive
 from ..errors import SceneError
 from .noise import noise
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .._numbers import positive
+from .._base.numbers import positive
 from ..errors import SceneError
 from .noise import Density, checked_density, noise
 

@@ -49,7 +49,7 @@ def table(chains: Chains) -> pl.DataFrame:
     >>> found.height, found.columns[:3]
     (3, ['chain', 'body', 'housing.modes[0].frequency'])
     """
-    from .._polars import pl
+    from .._base.polars import pl
 
     rows: list[dict[str, float | str]] = []
     for name, chain in named_chains(chains).items():

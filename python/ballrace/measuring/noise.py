@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .._numbers import positive
+from .._base.numbers import positive
 from ..errors import SceneError
 from .checks import finite_row
 from .housing import MeasuredResponse

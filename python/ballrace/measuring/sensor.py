@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .._numbers import positive
+from .._base.numbers import positive
 from .housing import Mode
 
 if TYPE_CHECKING:

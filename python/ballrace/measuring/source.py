@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import _core
-from .._numbers import real, real_row
+from .._base.numbers import real, real_row
 from ..errors import SceneError
 from ..scene import MotionProbe
 from ..scene.turning import constant_speeds

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .._numbers import counted, positive
+from .._base.numbers import counted, positive
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -61,7 +61,7 @@ class Balls:
 
     def to_polars(self) -> pl.DataFrame:
         """Return a table with a line per ball."""
-        from .._polars import pl
+        from .._base.polars import pl
 
         return pl.DataFrame(self.__dict__)
 

@@ -71,7 +71,7 @@ def _finite(value: Any) -> Any:
 
 
 def _tables(paper: Paper) -> dict[str, pl.DataFrame]:
-    from .._polars import pl
+    from .._base.polars import pl
 
     def stacked(of: Callable[[Case], pl.DataFrame]) -> pl.DataFrame:
         return pl.concat(

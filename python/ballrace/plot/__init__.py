@@ -22,7 +22,7 @@ No colour stands alone: lines differ in their dashes and markers, and what matte
 
 from __future__ import annotations
 
-from .._later import listed
+from .._base.later import listed
 from .animation import animation, probes
 from .animation3d import animation3d
 from .campaigns import campaign_map, distribution

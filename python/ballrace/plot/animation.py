@@ -90,7 +90,7 @@ def animation(
     >>> len(fig.frames)
     20
     """
-    from .._plotly import Frame
+    from .._base.plotly import Frame
 
     check(out, column, row, frames)
     shown = samples(out, start, end, frames)
@@ -149,7 +149,7 @@ def samples(out: Signals, start: float, end: float | None, frames: int) -> list[
 
 
 def _panels() -> go.Figure:
-    from .._plotly import Paused, make_subplots
+    from .._base.plotly import Paused, make_subplots
 
     return make_subplots(
         figure=Paused(), rows=2, cols=2, specs=[[{}, {}], [{"colspan": 2}, None]], column_widths=[0.62, 0.38],
@@ -159,7 +159,7 @@ def _panels() -> go.Figure:
 
 
 def _signal(fig: go.Figure, out: Signals, column: str, samples: list[int]) -> None:
-    from .._plotly import Scatter
+    from .._base.plotly import Scatter
 
     signal = source(out, column, None)
     part = slice(samples[0], samples[-1] + 1)
@@ -174,7 +174,7 @@ def _signal(fig: go.Figure, out: Signals, column: str, samples: list[int]) -> No
 
 
 def _cursor(fig: go.Figure, now: float) -> Any:
-    from .._plotly import Scatter
+    from .._base.plotly import Scatter
 
     low, high = fig.layout.yaxis3.range or (-1.0, 1.0)
     style = {"color": COLOURS[1], "width": 2, "dash": "dash"}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from .._numbers import real
+from .._base.numbers import real
 from ..errors import SceneError
 from .animation import check, player, samples
 from .style import finished
@@ -69,7 +69,7 @@ def animation3d(
     >>> len(fig.frames)
     20
     """
-    from .._plotly import Frame, Paused
+    from .._base.plotly import Frame, Paused
 
     check(out, "inner.theta", row, frames)
     if not 1.0 <= real(enlarged) <= 20.0:

@@ -64,8 +64,8 @@ def campaign_map(
     >>> fig.data[0].z.tolist()
     [[3.0, 4.0]]
     """
-    from .._plotly import Figure
-    from .._polars import pl
+    from .._base.plotly import Figure
+    from .._base.polars import pl
 
     table = _table(done, (x, y, value)).drop_nulls([x, y, value])
     mean = table.group_by(x, y).agg(pl.col(value).mean())
@@ -92,7 +92,7 @@ def _shades(values: NDArray[np.float64], logarithmic: bool) -> NDArray[np.float6
 
 def _cells(mean: pl.DataFrame, columns: tuple[str, str, str], logarithmic: bool) -> go.Heatmap:
     """Draw the cases of a grid."""
-    from .._plotly import Heatmap
+    from .._base.plotly import Heatmap
 
     x, y, value = columns
     across, up = (np.unique(mean[name].to_numpy()) for name in (x, y))
@@ -111,7 +111,7 @@ def _cells(mean: pl.DataFrame, columns: tuple[str, str, str], logarithmic: bool)
 
 def _points(mean: pl.DataFrame, columns: tuple[str, str, str], logarithmic: bool) -> go.Scatter:
     """Draw cases that are no grid."""
-    from .._plotly import Scatter
+    from .._base.plotly import Scatter
 
     x, y, value = columns
     shades = _shades(mean[value].to_numpy(), logarithmic)
@@ -158,7 +158,7 @@ def distribution(
     >>> [box.name for box in br.plot.distribution(table, "rms", by="faulty").data]
     ['faulty: no', 'faulty: yes']
     """
-    from .._plotly import Box, Figure
+    from .._base.plotly import Box, Figure
 
     table = _table(done, (value,) if by is None else (value, by)).drop_nulls(value)
     groups = {"all cases": table}

@@ -23,7 +23,7 @@ def add_lines(fig: go.Figure, bands: Sequence[FaultBand], top: float) -> None:
     The labels are upright, so that those of neighbours do not overlap. With several faults in one picture only the
     harmonics are labelled; sidebands show their name under the pointer.
     """
-    from .._plotly import Scatter
+    from .._base.plotly import Scatter
 
     faults = list(dict.fromkeys(band.fault for band in bands))
     for fault in faults:

@@ -157,7 +157,7 @@ def slice_forces(
     >>> scene = br.bearing("6205", speed_rpm=1800.0).replace({"probes.slices": probe})
     >>> fig = br.plot.slice_forces(br.simulate(scene, duration=1e-4))
     """
-    from .._plotly import Bar
+    from .._base.plotly import Bar
 
     tables = _tables(cases)
     fig = fig if fig is not None else stack(tuple(tables))
@@ -223,7 +223,7 @@ def _around(found: Loads, row: int) -> tuple[NDArray[np.float64], NDArray[np.flo
 
 
 def _polars(titles: tuple[str, ...]) -> go.Figure:
-    from .._plotly import make_subplots
+    from .._base.plotly import make_subplots
 
     specs = [[{"type": "polar"} for _ in titles]]
     fig = make_subplots(rows=1, cols=len(titles), specs=specs, subplot_titles=titles)
@@ -239,7 +239,7 @@ def _polar_line(
     *,
     marked: bool = True,
 ) -> Any:
-    from .._plotly import Scatterpolar
+    from .._base.plotly import Scatterpolar
 
     kind = number % len(COLOURS)
     return Scatterpolar(

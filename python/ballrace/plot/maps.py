@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import spectra
-from .._numbers import real_row
+from .._base.numbers import real_row
 from ..errors import SceneError
 from ..recordings.columns import Columns
 from ..scene import Scene
@@ -76,7 +76,7 @@ def spectrogram(
     >>> import ballrace as br
     >>> fig = br.plot.spectrogram(br.simulate(br.bearing("6205", speed_rpm=1800.0), duration=0.05))
     """
-    from .._plotly import Figure
+    from .._base.plotly import Figure
 
     signal = source(of, column, fs)
     f, t, value = spectra.spectrogram(signal.x, signal.fs, length)
@@ -148,7 +148,7 @@ def order_map(
     >>> scene = br.bearing("6205", speed_rpm=1800.0).replace({"drive": br.scene.SpeedDrive(speed)})
     >>> fig = br.plot.order_map(br.simulate(scene, duration=0.2))
     """
-    from .._plotly import Figure
+    from .._base.plotly import Figure
 
     if not 0.0 < highest < math.inf:
         raise SceneError("highest", str(highest), "an order above 0")
@@ -289,7 +289,7 @@ def kurtogram(
     >>> len(fig.data[0].y) == len(set(found.level))
     True
     """
-    from .._plotly import Figure, Heatmap
+    from .._base.plotly import Figure, Heatmap
 
     fig = fig if fig is not None else Figure()
     if not isinstance(found, spectra.Kurtogram):
@@ -341,7 +341,7 @@ def _shaded(
     span: float = 60.0,
 ) -> Any:
     """Return a heat map in decibels down to ``-span``, with no more cells than a screen shows."""
-    from .._plotly import Heatmap
+    from .._base.plotly import Heatmap
 
     x, power = x[:: _step(x.size)], power[:, :: _step(x.size)]
     every = _step(y.size)

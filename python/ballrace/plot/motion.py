@@ -64,7 +64,7 @@ def orbit(
     >>> import ballrace as br
     >>> fig = br.plot.orbit(br.simulate(br.bearing("6205", speed_rpm=1800.0), duration=0.02))
     """
-    from .._plotly import Figure, Scatter
+    from .._base.plotly import Figure, Scatter
 
     check_columns(out, "out")
     kept = out.t >= skip
@@ -129,7 +129,7 @@ def ball_path(
     >>> out = br.simulate(scene.replace({"probes.ball": ball}), duration=0.1)
     >>> fig = br.plot.ball_path(out)
     """
-    from .._plotly import Figure
+    from .._base.plotly import Figure
 
     check_run(out)
     name, race, width, radius = _chosen(out, defect)
@@ -149,7 +149,7 @@ def ball_path(
 
 
 def _pass(fig: go.Figure, arc: Array, height: Array, name: str) -> None:
-    from .._plotly import Scatter
+    from .._base.plotly import Scatter
 
     number = len(fig.data) % len(COLOURS)
     ends = 0.5 * (height[0] + height[-1])

@@ -50,7 +50,7 @@ class Moving:
 
     def still(self) -> Iterator[Any]:
         """Give what stands in the front view: circles of the races, outer defects unless they turn, a scale."""
-        from .._plotly import Scatter
+        from .._base.plotly import Scatter
 
         row, shapes = self._of_row, self._shapes
         pitch, half = 0.5e3 * row.pitch_diameter, 0.5e3 * row.ball_diameter
@@ -79,7 +79,7 @@ class Moving:
 
     def section_still(self) -> Iterator[Any]:
         """Give the rings in the section."""
-        from .._plotly import Scatter
+        from .._base.plotly import Scatter
 
         for half in (1.0, -1.0):
             for outline, colour in (
@@ -105,7 +105,7 @@ class Moving:
                 yield 2, self._cut(row, half, k)
 
     def _shade(self, load: float) -> str:
-        from .._plotly import sample_colorscale
+        from .._base.plotly import sample_colorscale
 
         return str(sample_colorscale(SHADES, [min(max(load / self._largest, 0.0), 1.0)])[0])
 
@@ -117,7 +117,7 @@ class Moving:
 
     def _bars(self, places: Array, loads: Array) -> Any:
         """Bars from the outside, as long as the loads on the outer race are large."""
-        from .._plotly import Scatter
+        from .._base.plotly import Scatter
 
         angle = np.arctan2(places[:, 1], places[:, 0])
         inside = 1.04 * self._shapes.outside
@@ -132,7 +132,7 @@ class Moving:
 
     def _cage(self, places: Array) -> Any:
         """Bars of the cage: arcs on the pitch circle between neighbouring balls."""
-        from .._plotly import Scatter
+        from .._base.plotly import Scatter
 
         angle = np.arctan2(places[:, 1], places[:, 0])
         radius = 0.5e3 * self._of_row.pitch_diameter
@@ -145,7 +145,7 @@ class Moving:
 
     def _turned(self, k: int) -> Any:
         """Mark the inner ring, which shows how far the shaft has turned."""
-        from .._plotly import Scatter
+        from .._base.plotly import Scatter
 
         angle = float(self._theta[k])
         ends = np.array(
@@ -186,7 +186,7 @@ class Moving:
 
 def _mark(centre: tuple[float, float], radius: float, angle: float, half: float, name: str) -> Any:
     """Draw a thick piece of a circle; at least two degrees, so that it is seen."""
-    from .._plotly import Scatter
+    from .._base.plotly import Scatter
 
     arc = np.linspace(angle - max(half, 0.02), angle + max(half, 0.02), 7)
     line = {"color": COLOURS[1], "width": 7}
@@ -196,7 +196,7 @@ def _mark(centre: tuple[float, float], radius: float, angle: float, half: float,
 
 
 def _filled(x: Array, y: Array, colour: str) -> Any:
-    from .._plotly import Scatter
+    from .._base.plotly import Scatter
 
     line = {"color": _INK, "width": 1}
     return Scatter(

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from .._ellipse import semi_axes
 from ..scene.defect import extent, widest
 from ..statics import Equilibrium, equilibrium
+from .ellipse import semi_axes
 from .maps import SHADES
 from .outlines import race_radius
 from .style import COLOURS, finished
@@ -68,7 +68,7 @@ def unrolled(
     >>> import ballrace as br
     >>> fig = br.plot.unrolled(br.presets.wheel_bearing(axial_load=3000.0))
     """
-    from .._plotly import make_subplots
+    from .._base.plotly import make_subplots
 
     eq = equilibrium(scene) if loads is None else loads
     if fig is None:
@@ -93,7 +93,7 @@ def unrolled(
 def _contacts(
     fig: go.Figure, row: Row, eq: Equilibrium, *, number: int, race: Literal["outer", "inner"], largest: float,
 ) -> None:  # fmt: skip
-    from .._plotly import Scatter, sample_colorscale
+    from .._base.plotly import Scatter, sample_colorscale
 
     place = _RACES.index(race) + 1
 
@@ -134,7 +134,7 @@ def _extent(load: Array, z: Array, reach: Array) -> tuple[float, float]:
 
 
 def _defect(fig: go.Figure, row: Row, name: str, defect: Defect, place: int) -> None:
-    from .._plotly import Scatter
+    from .._base.plotly import Scatter
 
     race = _RACES[place - 1]
     width = widest(defect)

@@ -62,7 +62,7 @@ def section(
     >>> [a.text for a in fig.layout.annotations if "race" in a.text]
     ['spall on the outer race, at −90°']
     """
-    from .._plotly import Figure
+    from .._base.plotly import Figure
 
     scene = checked_scene(scene)
     fig = fig if fig is not None else Figure()
@@ -92,7 +92,7 @@ def section(
 
 
 def _filled(fig: go.Figure, half: float, outline: Array, colour: str, name: str) -> None:
-    from .._plotly import Scatter
+    from .._base.plotly import Scatter
 
     fig.add_trace(
         Scatter(
@@ -103,7 +103,7 @@ def _filled(fig: go.Figure, half: float, outline: Array, colour: str, name: str)
 
 
 def _line(fig: go.Figure, x: list[float], y: list[float], **line: Any) -> None:
-    from .._plotly import Scatter
+    from .._base.plotly import Scatter
 
     style = {"color": _INK, "width": 1, **line}
     fig.add_trace(Scatter(x=x, y=y, mode="lines", line=style, hoverinfo="skip"))

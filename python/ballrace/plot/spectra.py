@@ -98,7 +98,7 @@ def envelope_spectrum(
     >>> [a.text for a in fig.layout.annotations][:3]
     ['BPFI − f<sub>r</sub>', 'BPFI', 'BPFI + f<sub>r</sub>']
     """
-    from .._plotly import Figure, Scatter
+    from .._base.plotly import Figure, Scatter
 
     signal = source(of, column, fs)
     row = row_of(of) if row is None else row
@@ -177,7 +177,7 @@ def psd(
     >>> import ballrace as br
     >>> fig = br.plot.psd(br.simulate(br.bearing("6205", speed_rpm=1800.0), duration=0.02), "outer.ay")
     """
-    from .._plotly import Figure, Scatter
+    from .._base.plotly import Figure, Scatter
 
     signal = source(of, column, fs)
     f, value = spectra.psd(signal.x, signal.fs, length)

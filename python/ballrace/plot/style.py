@@ -7,9 +7,9 @@ import textwrap
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from .._base.libraries import needed
 from .._io.files import as_path
 from .._io.whole import whole
-from .._libraries import needed
 from ..errors import SceneError
 
 if TYPE_CHECKING:

@@ -181,7 +181,7 @@ def impacts(
     >>> [trace.name for trace in fig.data]
     ['vertical acceleration, outer ring', 'BPFO, 107.7 Hz']
     """
-    from .._plotly import Figure, Scatter
+    from .._base.plotly import Figure, Scatter
 
     signal = source(of, column, fs)
     row = row_of(of) if row is None else row
@@ -237,7 +237,7 @@ def _hits(
 
 def stack(titles: tuple[str, ...]) -> go.Figure:
     """Return panels one below the other, on one axis."""
-    from .._plotly import make_subplots
+    from .._base.plotly import make_subplots
 
     gap = min(0.08, 0.3 / len(titles)) if titles else 0.0
     return make_subplots(
@@ -273,7 +273,7 @@ def finish_stack(
 
 
 def _line(t: NDArray[np.float64], values: NDArray[np.float64], name: str, place: int) -> Any:
-    from .._plotly import Scatter
+    from .._base.plotly import Scatter
 
     t, values = min_max(t, values, _MANY)
     style = {"color": COLOURS[place % len(COLOURS)], "width": 1, "dash": DASHES[0]}

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from .._ellipse import semi_axes
 from ..frequencies.operating import operating_angle
 from ..scene.defect import extent
 from ..statics import equilibrium
+from .ellipse import semi_axes
 from .maps import SHADES
 from .outlines import outlines, race_radius
 from .solids import ball, patch, repeated, ring
@@ -73,7 +73,7 @@ class Turning:
 
     def still(self) -> Iterator[Any]:
         """Give the rings, cut open, defects of an outer race that stands, and the cage, alike however it turns."""
-        from .._plotly import Mesh3d, Scatter3d
+        from .._base.plotly import Mesh3d, Scatter3d
 
         kinds = {"outer ring": ("outer", "#9fb3c8", 0.3), "inner ring": ("inner", "#8fa3ba", 0.55)}
         for name, (shape, colour, opacity) in kinds.items():
@@ -91,7 +91,7 @@ class Turning:
 
     def at(self, k: int) -> list[Any]:
         """Return what changes of :meth:`first` at a sample, in its order: all but places along the axis."""
-        from .._plotly import Mesh3d, Scatter3d
+        from .._base.plotly import Mesh3d, Scatter3d
 
         shade = np.round(1e-6 * self._pressures[:, :, k].ravel()).astype(np.int16)
         patches = self._patches(k)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .._later import later, listed
+from .._base.later import later, listed
 
 if TYPE_CHECKING:
     from .friction import FrictionTorque, friction_torque_palmgren, friction_torque_skf

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from .._numbers import real
+from .._base.numbers import real
 from ..errors import SceneError
 
 __all__ = ["FrictionTorque", "friction_torque_palmgren", "friction_torque_skf"]

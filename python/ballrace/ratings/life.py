@@ -15,7 +15,7 @@ import warnings
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from .._numbers import positive
+from .._base.numbers import positive
 from ..bearings.rows import catalogue
 from ..duty import duty_cycle
 from ..errors import EquilibriumError, SceneError, SceneWarning

@@ -25,7 +25,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .._later import later, listed
+from .._base.later import later, listed
 
 if TYPE_CHECKING:
     from .dispatch import read

@@ -28,7 +28,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .. import _memory
+from .._base import memory as _memory
 from ..errors import BallraceError, FileError, from_record
 from . import limits
 from .here import format_of, read_here

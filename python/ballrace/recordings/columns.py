@@ -7,7 +7,7 @@ from abc import abstractmethod
 from collections.abc import ItemsView, Iterable, Iterator, KeysView, Mapping, ValuesView
 from typing import TYPE_CHECKING, Any, Self, TypeVar, overload
 
-from .._libraries import needed
+from .._base.libraries import needed
 from ..channel import Channel
 from ..errors import SceneError
 from .samples import Samples
@@ -150,7 +150,7 @@ class Columns:
 
     def to_polars(self) -> pl.DataFrame:
         """Return a table with the time ``t`` and all columns."""
-        from .._polars import pl
+        from .._base.polars import pl
 
         return pl.DataFrame({"t": self.t, **self})
 

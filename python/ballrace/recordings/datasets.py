@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .._units import canonical
+from .._base.units import canonical
 from ..errors import FileError
 from .rates import roundest
 from .sampled import cut

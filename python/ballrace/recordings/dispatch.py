@@ -8,10 +8,10 @@ from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
 
+from .._base.numbers import real
+from .._base.progress import Bar
+from .._base.text import printable
 from .._io.files import as_path
-from .._numbers import real
-from .._progress import Bar
-from .._text import printable
 from ..errors import FileWarning, SceneError
 from .apart import read_apart
 from .formats import FORMATS

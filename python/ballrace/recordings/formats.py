@@ -58,7 +58,7 @@ FORMATS = {
     for one in (
         Format(
             name="csv", title="a text table", suffixes=(".csv", ".txt", ".tsv", ".lvm", ".asc"), written=2,
-            read=text.read, write=text.write, library="ballrace._polars",
+            read=text.read, write=text.write, library="ballrace._base.polars",
         ),
         Format(
             name="wav", title="a WAV file", suffixes=(".wav",), written=1, beginnings=(b"RIFF", b"RIFX", b"RF64"),
@@ -79,7 +79,7 @@ FORMATS = {
         ),
         Format(
             name="parquet", title="a Parquet file", suffixes=(".parquet", ".pq"), written=2, beginnings=(b"PAR1",),
-            read=parquet.read, write=parquet.write, library="ballrace._polars",
+            read=parquet.read, write=parquet.write, library="ballrace._base.polars",
         ),
         Format(
             name="tdms", title="a TDMS file", suffixes=(".tdms",), beginnings=(b"TDSm",), read=tdms.read,

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from itertools import groupby, pairwise
 from typing import TYPE_CHECKING, Any
 
-from .._units import is_unit
+from .._base.units import is_unit
 from ..errors import FileError
 from .lines import other_ways
 from .titles import is_time_name, named, time_unit

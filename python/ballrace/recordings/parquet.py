@@ -5,10 +5,10 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING
 
-from .._interrupt import interrupted_once
+from .._base.interrupt import interrupted_once
 from .._io.parquet import columns_and_rows, read_sealed, sealing
-from .._io.record import described, unless_damaged
-from .._io.record import samples as column_of
+from .._results.file import described, unless_damaged
+from .._results.file import samples as column_of
 from ..errors import FileError
 from ..scene import Scene
 from .limits import check_declared
@@ -31,7 +31,7 @@ _HEADER = "ballrace.recording"
 
 def write(samples: Samples, temporary: Path, path: Path) -> None:
     """Write times and columns, their metadata, and a hash of everything."""
-    from .._polars import pl
+    from .._base.polars import pl
 
     table = pl.DataFrame({"t": samples.t, **samples.columns})
     entries = {_HEADER: samples.header()}
@@ -68,7 +68,7 @@ def read(path: Path, reading: Reading) -> Samples:
 
 def _column(path: Path, series: pl.Series) -> Column:
     """Return a column as numbers; dates and times as seconds."""
-    from .._polars import pl
+    from .._base.polars import pl
 
     name, unit = named(series.name)
     kind = series.dtype

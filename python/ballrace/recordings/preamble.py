@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any
 
-from .._units import is_unit
+from .._base.units import is_unit
 from .rates import stated_rate
 from .samples import Said
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING, Any
 
-from .._numbers import counted, real, sampling_rate
+from .._base.numbers import counted, real, sampling_rate
 from ..errors import SceneError
 from .titles import TIME_UNITS, time_unit
 

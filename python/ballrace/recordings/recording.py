@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .._numbers import read_only, real, real_row, sampling_rate
-from .._units import canonical
+from .._base.numbers import read_only, real, real_row, sampling_rate
+from .._base.units import canonical
 from ..errors import SceneError
 from .columns import Columns
 from .windows import Origin

@@ -6,8 +6,8 @@ import re
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, NoReturn
 
-from .._numbers import RATES
-from .._units import ENVELOPE, canonical
+from .._base.numbers import RATES
+from .._base.units import ENVELOPE, canonical
 from ..errors import FileError, SceneError
 from .rates import roundest
 from .samples import Said, Samples

@@ -24,7 +24,7 @@ def seconds(stamps: NDArray[Any]) -> tuple[NDArray[np.float64], float, str]:
 
     The time of day alone counts; where it falls by hours, a day has passed. A date alone is midnight.
     """
-    from .._polars import pl
+    from .._base.polars import pl
 
     texts = pl.Series(stamps, dtype=pl.String)
     first = str(texts[0]) if texts.len() else ""

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .._libraries import needed
+from .._base.libraries import needed
 from ..errors import FileError
 from .limits import check_declared
 from .lines import other_ways

@@ -48,7 +48,7 @@ _PROBE = 1 << 16
 
 def write(samples: Samples, temporary: Path, path: Path) -> None:
     """Write times and columns with commas between them, all digits, and units in the header."""
-    from .._polars import pl
+    from .._base.polars import pl
 
     columns = {"t [s]": samples.t}
     for name, x in samples.columns.items():
@@ -214,7 +214,7 @@ class _Body:
 
     def _parsed(self, piece: bytes) -> pl.DataFrame | None:
         """Return the rows of a piece, None where some of its lines are none."""
-        from .._polars import pl
+        from .._base.polars import pl
 
         layout = self._layout
         schema: dict[str, Any] = {

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from .._units import is_unit
+from .._base.units import is_unit
 
 __all__ = ["TIME_UNITS", "is_time_name", "named", "time_unit"]
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .._units import canonical
+from .._base.units import canonical
 from ..errors import FileError
 from .lines import other_ways
 from .preamble import rate_in

@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .._libraries import needed
-from .._units import canonical
+from .._base.libraries import needed
+from .._base.units import canonical
 from ..errors import FileError, SceneError
 from .rates import roundest
 from .sampled import cut

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .._arguments import whole_text
-from .._numbers import counted
+from .._base.arguments import whole_text
+from .._base.numbers import counted
 from ..errors import SceneError
 
 if TYPE_CHECKING:
@@ -73,7 +73,7 @@ def windows(
     bearing_id: str | int | None,
 ) -> pl.DataFrame:
     """Return the table that :meth:`Columns.to_windows` describes."""
-    from .._polars import pl
+    from .._base.polars import pl
 
     count = samples.n_samples
     length = counted("length", length, 1, count)
@@ -115,7 +115,7 @@ def _check_labels(label: object, bearing_id: object) -> None:
 
 
 def _pieces(name: str, x: NDArray[np.float64], length: int, hop: int) -> pl.Series:
-    from .._polars import pl
+    from .._base.polars import pl
 
     largest = np.abs(x).max(initial=0.0, where=np.isfinite(x))
     if largest > np.finfo(np.float32).max:
@@ -126,7 +126,7 @@ def _pieces(name: str, x: NDArray[np.float64], length: int, hop: int) -> pl.Seri
 
 def _types() -> dict[str, Any]:
     """Return the types of the nested columns, which the first rows need not show."""
-    from .._polars import pl
+    from .._base.polars import pl
 
     number, text, whole = pl.Float64, pl.String, pl.Int64
     geometry = dict.fromkeys(("ball_diameter", "pitch_diameter", "contact_angle"), number)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .._arguments import whole_text
+from .._base.arguments import whole_text
 from .._io.files import as_path
 from .._io.whole import whole
 from .formats import by_name

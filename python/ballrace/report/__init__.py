@@ -11,7 +11,7 @@ True
 
 from __future__ import annotations
 
-from .._later import listed
+from .._base.later import listed
 from .campaign import campaign_page
 from .page import Page
 from .run import run_page

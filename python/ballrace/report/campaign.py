@@ -122,7 +122,7 @@ def _fault(table: pl.DataFrame) -> str | None:
 
 
 def _add_troubles(page: Page, table: pl.DataFrame, varied: list[str]) -> None:
-    from .._polars import pl
+    from .._base.polars import pl
 
     page.section("Failures and warnings")
     failed = table.filter(status="failed")

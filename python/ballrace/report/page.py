@@ -180,7 +180,7 @@ class Page:
 
     def _drawing(self) -> Iterator[str]:
         """Give the scripts that draw the figures."""
-        from .._plotly import get_plotlyjs
+        from .._base.plotly import get_plotlyjs
         from ..plot import CONFIG
 
         for name, text in (

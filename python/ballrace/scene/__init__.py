@@ -11,7 +11,7 @@ Where a field may be one of several things, its type says so: ``friction="none"`
 
 from __future__ import annotations
 
-from .._later import listed
+from .._base.later import listed
 from .approximations import Approximations
 from .bearing import GothicArch, RaceProfile, Ring, RingName, Row, Waviness
 from .cage import Cage, CageGuidance, CageRing

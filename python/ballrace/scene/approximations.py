@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .._document import Part
+from .._base.document import Part
 
 __all__ = ["Approximations"]
 

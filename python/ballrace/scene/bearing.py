@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Literal
 
-from .._document import LEFT_OUT, Part
+from .._base.document import LEFT_OUT, Part
 from .contact import Contact
 from .friction import Friction
 from .lubricant import Lubricant

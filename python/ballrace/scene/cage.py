@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from .._document import Part, Variant
+from .._base.document import Part, Variant
 
 __all__ = ["Cage", "CageGuidance", "CageRing"]
 

@@ -14,7 +14,7 @@ from .described import described
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from .._document import Part
+    from .._base.document import Part
 
 __all__ = ["commented"]
 

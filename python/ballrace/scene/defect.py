@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, get_args
 
-from .._document import Part, Told
+from .._base.document import Part, Told
 
 __all__ = [
     "AxialOffset",

@@ -13,7 +13,7 @@ import typing
 from collections.abc import Mapping
 from typing import Any
 
-from .._document import INSTEAD, Part, Told, Variant, encode
+from .._base.document import INSTEAD, Part, Told, Variant, encode
 
 __all__ = ["described"]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .._document import Variant
+from .._base.document import Variant
 from .time import TimeFunction
 
 __all__ = ["Drive", "SpeedDrive", "TorqueDrive"]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from .._document import LEFT_OUT, Part
+from .._base.document import LEFT_OUT, Part
 from .bearing import RingName
 from .time import TimeFunction
 

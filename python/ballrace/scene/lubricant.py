@@ -12,8 +12,8 @@ from dataclasses import dataclass, field, fields
 from typing import Literal
 
 from .. import _core
-from .._document import INSTEAD, Part, encode
-from .._numbers import finite
+from .._base.document import INSTEAD, Part, encode
+from .._base.numbers import finite
 from ..errors import SceneError
 
 __all__ = ["BaseOil", "Lubricant", "NamedOil", "OilLayer", "OilProperties", "lubricants"]

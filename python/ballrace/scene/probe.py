@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from .._document import Variant
+from .._base.document import Variant
 from .bearing import RingName
 
 __all__ = [

@@ -10,9 +10,9 @@ from types import MappingProxyType
 from typing import Any, Literal
 
 from .. import _core
-from .._arguments import whole_text
-from .._document import LEFT_OUT, Part, decode, encode
-from .._html import folded, paragraph, points
+from .._base.arguments import whole_text
+from .._base.document import LEFT_OUT, Part, decode, encode
+from .._base.html import folded, paragraph, points
 from .._io.files import as_path
 from .._io.toml import check_depth, loads
 from ..errors import SceneError

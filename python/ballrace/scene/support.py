@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Literal
 
-from .._document import LEFT_OUT, Part, Variant
+from .._base.document import LEFT_OUT, Part, Variant
 from .time import TimeFunction
 
 __all__ = ["CoupledSupport", "Given", "Mount", "Spring", "Support"]

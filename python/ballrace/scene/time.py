@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .. import _core
-from .._document import Variant, encode
+from .._base.document import Variant, encode
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray

@@ -20,7 +20,7 @@ True
 
 from __future__ import annotations
 
-from .._later import listed
+from .._base.later import listed
 from .angular import by_order, order_spectrum, turning
 from .bands import FaultBand, FaultMetrics, fault_band_metrics, fault_bands
 from .cyclic import cyclic_coherence, improved_envelope_spectrum

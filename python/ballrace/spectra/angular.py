@@ -9,8 +9,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from .. import _core
-from .._interrupt import answers_ctrl_c
-from .._numbers import counted, real_row
+from .._base.interrupt import answers_ctrl_c
+from .._base.numbers import counted, real_row
 from ..errors import SceneError
 from .checks import checked_signal
 from .lines import spectrum

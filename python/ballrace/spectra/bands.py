@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from .._numbers import counted, positive, real
+from .._base.numbers import counted, positive, real
 from ..errors import SceneError
 
 if TYPE_CHECKING:

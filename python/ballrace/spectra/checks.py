@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, TypeAlias
 
 from .. import _core
-from .._numbers import counted, real, real_row, sampling_rate
+from .._base.numbers import counted, real, real_row, sampling_rate
 from ..channel import channel_of
 from ..errors import SceneError
 

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .._interrupt import answers_ctrl_c
-from .._numbers import real_row
+from .._base.interrupt import answers_ctrl_c
+from .._base.numbers import real_row
 from ..errors import SceneError
 from .checks import checked_band, given_signal
 from .pieces import piece_length, transforms

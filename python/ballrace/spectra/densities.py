@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .._interrupt import answers_ctrl_c
+from .._base.interrupt import answers_ctrl_c
 from ..errors import SceneError
 from .checks import checked_length, given_signal
 

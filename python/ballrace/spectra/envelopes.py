@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .. import _core
-from .._interrupt import answers_ctrl_c
+from .._base.interrupt import answers_ctrl_c
 from .checks import checked_band, given_signal
 from .lines import spectrum
 

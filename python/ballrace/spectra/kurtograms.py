@@ -18,8 +18,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from .._interrupt import answers_ctrl_c
-from .._numbers import real
+from .._base.interrupt import answers_ctrl_c
+from .._base.numbers import real
 from ..errors import SceneError
 from .checks import given_signal
 from .pieces import piece_length, transforms

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .. import _core
-from .._interrupt import answers_ctrl_c
-from .._numbers import finite
+from .._base.interrupt import answers_ctrl_c
+from .._base.numbers import finite
 from ..errors import SceneError
 from .checks import given_signal
 

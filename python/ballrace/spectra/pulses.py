@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from .._numbers import counted, real, real_row
+from .._base.numbers import counted, real, real_row
 from ..channel import channel_of
 from ..errors import AccuracyWarning, SceneError
 from .checks import checked_signal

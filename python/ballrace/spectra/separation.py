@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .._interrupt import answers_ctrl_c
+from .._base.interrupt import answers_ctrl_c
 from .checks import given_signal
 from .pieces import piece_length
 

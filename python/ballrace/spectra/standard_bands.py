@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .._interrupt import answers_ctrl_c
-from .._numbers import real
-from .._units import ACCELERATIONS, VELOCITIES
+from .._base.interrupt import answers_ctrl_c
+from .._base.numbers import real
+from .._base.units import ACCELERATIONS, VELOCITIES
 from ..channel import channel_of
 from ..errors import SceneError
 from .checks import checked_signal

@@ -10,7 +10,7 @@
 
 from __future__ import annotations
 
-from .._later import listed
+from .._base.later import listed
 from .procedure import trend
 from .result import Trend
 

@@ -54,7 +54,7 @@ def picture(of: Trend, fig: go.Figure | None, layout: dict[str, Any]) -> go.Figu
 
 
 def _add(fig: go.Figure, row: int, time: Any, value: Any, *, name: str, number: int) -> None:
-    from .._plotly import Scatter
+    from .._base.plotly import Scatter
 
     line = {
         "color": COLOURS[number % len(COLOURS)],

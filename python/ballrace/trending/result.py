@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from .._polars import pl
-from .._text import printable
+from .._base.polars import pl
+from .._base.text import printable
 
 if TYPE_CHECKING:
     import plotly.graph_objects as go

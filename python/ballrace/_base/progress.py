@@ -6,7 +6,7 @@ import sys
 import time
 from typing import TYPE_CHECKING, Self, TextIO
 
-from ._text import printable
+from .text import printable
 
 if TYPE_CHECKING:
     from types import TracebackType

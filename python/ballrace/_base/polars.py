@@ -10,8 +10,8 @@ import io
 import os
 import sys
 
-from ._memory import left
-from .errors import MemoryLimitError
+from ..errors import MemoryLimitError
+from .memory import left
 
 __all__ = ["pl"]
 

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ._interrupt import interrupted_once
-from ._io.files import as_path
-from ._io.parquet import read_sealed, sealing
-from ._io.record import samples, unless_damaged
-from ._io.whole import whole
-from .errors import FileError
+from .._base.interrupt import interrupted_once
+from .._io.files import as_path
+from .._io.parquet import read_sealed, sealing
+from .._io.whole import whole
+from ..errors import FileError
+from .file import samples, unless_damaged
 
 if TYPE_CHECKING:
     import os
@@ -58,7 +58,7 @@ class Snapshot:
         OSError
             The folder does not exist or is not writable, or the disk is full.
         """
-        from ._polars import pl
+        from .._base.polars import pl
 
         entries = {"ballrace": f"snapshot {_FORMAT}", _ENTRY: self._document}
         with whole(path) as temporary, sealing(temporary, path):

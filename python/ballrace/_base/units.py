@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .errors import SceneError
+from ..errors import SceneError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -17,11 +17,11 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from .._interrupt import interrupted_once
+from .._base.interrupt import interrupted_once
+from .._io.parquet import columns_and_rows, read_bytes, read_columns, sealing, to_bytes, writing_to
+from .._io.whole import whole
 from ..errors import BallraceError, FileError, SceneError
 from ..scene import Scene
-from .parquet import columns_and_rows, read_bytes, read_columns, sealing, to_bytes, writing_to
-from .whole import whole
 
 if TYPE_CHECKING:
     import os
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
     import polars as pl
 
-    from .._results import Record
+    from .entries import Record
 
 
 _FORMAT = "1"
@@ -47,7 +47,7 @@ class Writer:
 
     def take(self, columns: Mapping[str, NDArray[np.float64]]) -> None:
         """Write a block: columns of one length, the same names in each block."""
-        from .._polars import pl
+        from .._base.polars import pl
 
         table = pl.DataFrame(dict(columns))
         block = self._path.with_name(f"{self._path.name}.{len(self._blocks):08}")
@@ -62,7 +62,7 @@ class Writer:
             interrupted_once(lambda: self._join(metadata))
 
     def _join(self, metadata: dict[str, str]) -> None:
-        from .._polars import pl
+        from .._base.polars import pl
 
         table = pl.scan_parquet(self._blocks, glob=False)
         table.sink_parquet(self._path, metadata=metadata, row_group_size=self._rows)
@@ -156,7 +156,7 @@ def unless_damaged(path: Path, read: Callable[[], Any]) -> Any:
 
 def samples(path: Path, table: pl.DataFrame, name: str) -> NDArray[np.float64]:
     """Return a column of a file, which has to hold numbers."""
-    from .._polars import pl
+    from .._base.polars import pl
 
     if name not in table.columns:
         raise FileError(str(path), f"damaged: the column {name} is missing")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ._libraries import needed
+from .libraries import needed
 
 needed("plotly", "a picture", extra="plot")
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from .scene import Surface
+from ..scene import Surface
 
 __all__ = ["Record", "Touched"]
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ._text import printable
+from .text import printable
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence

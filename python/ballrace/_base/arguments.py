@@ -7,7 +7,7 @@ import functools
 import inspect
 from typing import TYPE_CHECKING, ParamSpec, TypeVar
 
-from .errors import SceneError
+from ..errors import SceneError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping

@@ -7,17 +7,17 @@ import math
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
-from . import _core
-from ._interrupt import answers_ctrl_c
-from ._numbers import finite, real
-from .errors import SceneError
-from .scene.scene import checked_scene
+from .. import _core
+from .._base.interrupt import answers_ctrl_c
+from .._base.numbers import finite, real
+from ..errors import SceneError
+from ..scene.scene import checked_scene
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from .scene import Scene
-    from .spectra.checks import Given
+    from ..scene import Scene
+    from ..spectra.checks import Given
 
 __all__ = ["feature_options", "features"]
 
@@ -75,7 +75,7 @@ def features(
     >>> round(found["sensor.rms"], 4), round(found["sensor.kurtosis"], 4)
     (0.7071, 1.5)
     """
-    from .spectra.checks import given_signal
+    from ..spectra.checks import given_signal
 
     document = None if scene is None else checked_scene(scene).to_json()
     options = json.dumps(feature_options(None, skip, band, loads=False))

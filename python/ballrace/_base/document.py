@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 import numpy as np
 
-from .errors import SceneError
+from ..errors import SceneError
 
 T = TypeVar("T")
 

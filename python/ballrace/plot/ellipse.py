@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from . import _core
+from .. import _core
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .scene import Row
+    from ..scene import Row
 
 __all__ = ["axis_ratio", "semi_axes"]
 

@@ -1,0 +1,1 @@
+"""Results of runs behind the public ones: entries, files, snapshots, features."""
