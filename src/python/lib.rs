@@ -33,8 +33,8 @@ mod _core {
     #[pymodule_export]
     use super::scene::{
         preset_angular_contact_pair, preset_cornering_wheel, preset_deep_groove_6205,
-        preset_wheel_bearing, scene_doubts, scene_from_json, scene_from_toml, scene_replace,
-        scene_to_toml, time_values,
+        preset_wheel_bearing, scene_doubts, scene_from_json, scene_from_toml, scene_ranges,
+        scene_replace, scene_to_toml, time_values,
     };
     #[pymodule_export]
     use super::simulation::GoingRun;

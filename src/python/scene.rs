@@ -65,6 +65,13 @@ pub(super) fn time_values<'py>(
     Ok(values.into_pyarray(py))
 }
 
+/// Ranges of the numbers of all parts of a scene, as JSON.
+#[pyfunction]
+pub(super) fn scene_ranges() -> String {
+    // Plain numbers and names.
+    serde_json::to_string(&ballrace::scene::ranges()).unwrap_or_default()
+}
+
 /// The preset `wheel_bearing` as JSON.
 #[pyfunction]
 pub(super) fn preset_wheel_bearing(py: Python<'_>, axial_load: f64) -> PyResult<String> {

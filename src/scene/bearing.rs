@@ -1,10 +1,20 @@
 //! Rows of balls and their races.
 
+use std::f64::consts::FRAC_PI_2;
+use std::ops::Bound;
+
 use serde::{Deserialize, Serialize};
 
 use super::absent;
+use super::numbers::{ANGLES, BoundedNumber, PLACES, POSITIVE};
 use super::ring::Support;
 use super::{Contact, Friction, Lubricant, Material, Texture, defaults};
+
+/// The steepest contact angle \[rad\].
+const STEEPEST: f64 = 80_f64.to_radians();
+
+/// Conformities of grooves.
+const CONFORMITIES: (Bound<f64>, Bound<f64>) = (Bound::Excluded(0.5), Bound::Included(1.0));
 
 /// Row of balls between two grooves (geometry of [*Geometry of a row*](crate::equations#geometry-of-a-row)).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -114,6 +124,38 @@ impl Row {
         listed || self.texture.is_some()
     }
 
+    /// Numbers of the row whose range depends on no other.
+    pub(super) fn numbers(&self) -> Vec<BoundedNumber> {
+        let angles = (Bound::Excluded(0.0), Bound::Excluded(FRAC_PI_2));
+        let shoulders = |field, shoulders: Option<[f64; 2]>| {
+            let unit = "rad, which is 90°";
+            BoundedNumber::each(field, shoulders.as_slice().as_flattened(), angles, unit)
+        };
+        let [outer, inner] = [self.outer_conformity, self.inner_conformity];
+        let own = [
+            BoundedNumber::new("ball_count", self.ball_count as f64, 1.0..=1e3, ""),
+            BoundedNumber::new("ball_diameter", self.ball_diameter, 1e-6..=10.0, "m"),
+            BoundedNumber::new("pitch_diameter", self.pitch_diameter, 1e-6..=100.0, "m"),
+            BoundedNumber::new("outer_conformity", outer, CONFORMITIES, ""),
+            BoundedNumber::new("inner_conformity", inner, CONFORMITIES, ""),
+            BoundedNumber::new(
+                "contact_angle",
+                self.contact_angle,
+                0.0..=STEEPEST,
+                "rad, which is 80°",
+            ),
+            BoundedNumber::new("axial_position", self.axial_position, PLACES, "m"),
+            BoundedNumber::new("start_angle", self.start_angle, ANGLES, "rad"),
+            BoundedNumber::new("ball_mass", self.ball_mass, POSITIVE, "kg"),
+            BoundedNumber::new("ball_inertia", self.ball_inertia, POSITIVE, "kg m²"),
+        ];
+        let both = [
+            shoulders("outer_shoulders", self.outer_shoulders),
+            shoulders("inner_shoulders", self.inner_shoulders),
+        ];
+        own.into_iter().chain(both.into_iter().flatten()).collect()
+    }
+
     /// A healthy row in the plane z = 0, without contact angle and clearance; the arguments are the fields of the same names.
     pub fn new(
         ball_count: usize,
@@ -173,6 +215,11 @@ pub struct RaceProfile {
 }
 
 impl RaceProfile {
+    /// Numbers of the profile whose range depends on no other.
+    pub(super) fn numbers(&self) -> Vec<BoundedNumber> {
+        BoundedNumber::each("r", &self.r, 1e-6..=100.0, "m")
+    }
+
     /// The profile through points at axial places `z` with radii `r` \[m\].
     pub fn new(z: Vec<f64>, r: Vec<f64>) -> Self {
         Self { z, r }
@@ -196,6 +243,25 @@ pub struct GothicArch {
 }
 
 impl GothicArch {
+    /// Numbers of the arch.
+    pub(super) fn numbers(&self) -> Vec<BoundedNumber> {
+        // Named one by one, so that the compiler asks about a new field.
+        let Self {
+            shim_angle,
+            conformities,
+        } = self;
+        let angles = (Bound::Excluded(0.0), Bound::Included(STEEPEST));
+        let given = conformities.as_slice().as_flattened();
+        let mut all = BoundedNumber::each("conformities", given, CONFORMITIES, "");
+        all.push(BoundedNumber::new(
+            "shim_angle",
+            *shim_angle,
+            angles,
+            "rad, which is 80°",
+        ));
+        all
+    }
+
     /// Flanks of the race's own conformity.
     pub fn new(shim_angle: f64) -> Self {
         Self {
@@ -220,6 +286,20 @@ pub struct Waviness {
 }
 
 impl Waviness {
+    /// Numbers of the wave whose range depends on no other.
+    pub(super) fn numbers(&self) -> [BoundedNumber; 2] {
+        // Named one by one, so that the compiler asks about a new field.
+        let Self {
+            order,
+            amplitude: _,
+            phase,
+        } = *self;
+        [
+            BoundedNumber::new("order", f64::from(order), 1.0..=1e3, ""),
+            BoundedNumber::new("phase", phase, ANGLES, "rad"),
+        ]
+    }
+
     /// Waves around the circumference, amplitude \[m\] and phase \[rad\].
     pub fn new(order: u32, amplitude: f64, phase: f64) -> Self {
         Self {

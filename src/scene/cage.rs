@@ -7,7 +7,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use super::Row;
 use super::document::at_field;
-use super::numbers::{BoundedNumber, NumberRange};
+use super::numbers::{BoundedNumber, up_to};
 
 /// Density of the steel of a cage whose mass is not given \[kg/m³\].
 const STEEL: f64 = 7800.0;
@@ -64,14 +64,6 @@ impl Cage {
         match self {
             Self::Links(_) => None,
             Self::Ring { ring } => Some(ring),
-        }
-    }
-
-    /// Numbers of the cage, each by its path in it.
-    pub(super) fn numbers(&self) -> Vec<BoundedNumber> {
-        match self {
-            Self::Links(links) => links.numbers().into(),
-            Self::Ring { ring } => ring.numbers(),
         }
     }
 }
@@ -131,7 +123,7 @@ pub struct CageLinks {
 
 impl CageLinks {
     /// Numbers of the links.
-    fn numbers(&self) -> [BoundedNumber; 3] {
+    pub(super) fn numbers(&self) -> [BoundedNumber; 3] {
         // Named one by one, so that the compiler asks about a new field.
         let Self {
             stiffness,
@@ -139,9 +131,9 @@ impl CageLinks {
             play,
         } = *self;
         [
-            BoundedNumber::within("stiffness", stiffness, 0.0..=1e15, "N/m"),
-            BoundedNumber::within("damping", damping, 0.0..=1e12, "N s/m"),
-            BoundedNumber::within("play", play, 0.0..=1.0, "m"),
+            BoundedNumber::new("stiffness", stiffness, 0.0..=1e15, "N/m"),
+            BoundedNumber::new("damping", damping, 0.0..=1e12, "N s/m"),
+            BoundedNumber::new("play", play, 0.0..=1.0, "m"),
         ]
     }
 }
@@ -275,8 +267,8 @@ impl CageRing {
         self.inertia.unwrap_or(self.mass(row) * radius * radius)
     }
 
-    /// Numbers of the ring that are given, each by its path in the cage.
-    fn numbers(&self) -> Vec<BoundedNumber> {
+    /// Numbers of the ring.
+    pub(super) fn numbers(&self) -> [BoundedNumber; 15] {
         // Named one by one, so that the compiler asks about a new field.
         let Self {
             mass,
@@ -298,37 +290,27 @@ impl CageRing {
             land_stiffness,
             land_friction,
         } = self;
-        let up_to = |field, value, most, unit| BoundedNumber {
-            field,
-            value,
-            range: NumberRange::UpTo(most),
-            unit,
-        };
-        let given = |field, value: &Option<f64>, most, unit| {
-            value.map(|value| up_to(field, value, most, unit))
-        };
-        let from_0 = |field, value: &Option<f64>, most, unit| {
-            value.map(|value| BoundedNumber::within(field, value, 0.0..=most, unit))
-        };
-        let optional = [
-            given("ring.mass", mass, 1e6, "kg"),
-            given("ring.inertia", inertia, 1e6, "kg m²"),
-            from_0("ring.pocket_clearance", pocket_clearance, 1.0, "m"),
-            from_0("ring.stiffness", stiffness, 1e15, "N/m"),
-            from_0("ring.damping", damping, 1e12, "N s/m"),
-            given("ring.slip_speed", slip_speed, 1e3, "m/s"),
-            given("ring.centring_stiffness", centring_stiffness, 1e15, "N/m"),
-            from_0("ring.land_clearance", land_clearance, 1.0, "m"),
-            given("ring.land_radius", land_radius, 100.0, "m"),
-        ];
-        let others = [
-            BoundedNumber::within("ring.eccentricity", *eccentricity, 0.0..=1.0, "m"),
-            up_to("ring.damping_depth", *damping_depth, 1.0, "m"),
-            BoundedNumber::within("ring.friction", *friction, 0.0..=10.0, ""),
-            BoundedNumber::within("ring.pocket_error", *pocket_error, 0.0..=0.1, "rad"),
-            BoundedNumber::within("ring.land_stiffness", *land_stiffness, 0.0..=1e15, "N/m"),
-            BoundedNumber::within("ring.land_friction", *land_friction, 0.0..=10.0, ""),
-        ];
-        optional.into_iter().flatten().chain(others).collect()
+        [
+            BoundedNumber::new("mass", *mass, up_to(1e6), "kg"),
+            BoundedNumber::new("inertia", *inertia, up_to(1e6), "kg m²"),
+            BoundedNumber::new("eccentricity", *eccentricity, 0.0..=1.0, "m"),
+            BoundedNumber::new("pocket_clearance", *pocket_clearance, 0.0..=1.0, "m"),
+            BoundedNumber::new("stiffness", *stiffness, 0.0..=1e15, "N/m"),
+            BoundedNumber::new("damping", *damping, 0.0..=1e12, "N s/m"),
+            BoundedNumber::new("damping_depth", *damping_depth, up_to(1.0), "m"),
+            BoundedNumber::new("friction", *friction, 0.0..=10.0, ""),
+            BoundedNumber::new("slip_speed", *slip_speed, up_to(1e3), "m/s"),
+            BoundedNumber::new("pocket_error", *pocket_error, 0.0..=0.1, "rad"),
+            BoundedNumber::new(
+                "centring_stiffness",
+                *centring_stiffness,
+                up_to(1e15),
+                "N/m",
+            ),
+            BoundedNumber::new("land_clearance", *land_clearance, 0.0..=1.0, "m"),
+            BoundedNumber::new("land_radius", *land_radius, up_to(100.0), "m"),
+            BoundedNumber::new("land_stiffness", *land_stiffness, 0.0..=1e15, "N/m"),
+            BoundedNumber::new("land_friction", *land_friction, 0.0..=10.0, ""),
+        ]
     }
 }

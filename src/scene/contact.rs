@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::numbers::BoundedNumber;
+use super::numbers::{BoundedNumber, POSITIVE};
 
 /// Contact of a ball and a race: elastic law, slices, damping.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -17,6 +17,20 @@ pub struct Contact {
     pub damping: f64,
     /// Whether a slice that would pull is set to zero (and counted); `false` keeps the paper's bare sum.
     pub clamp_pull: bool,
+}
+
+impl Contact {
+    /// Numbers of the contact.
+    pub(super) fn numbers(&self) -> [BoundedNumber; 1] {
+        // Named one by one, so that the compiler asks about a new field.
+        let Self {
+            law: _,
+            slices: _,
+            damping,
+            clamp_pull: _,
+        } = *self;
+        [BoundedNumber::new("damping", damping, 0.0..=1e3, "s/m")]
+    }
 }
 
 impl Default for Contact {
@@ -74,17 +88,20 @@ impl NormalLaw {
         }
     }
 
-    /// Numbers of the law, each by its path in it.
-    pub(super) fn numbers(&self) -> Vec<BoundedNumber> {
+    /// Name of the law in a document, and its numbers.
+    pub(super) fn numbers(&self) -> (&'static str, Vec<BoundedNumber>) {
         match *self {
             Self::Iso16281 {
                 constant,
                 length_ratio,
-            } => vec![
-                BoundedNumber::within("iso16281.constant", constant, 1.0..=1e16, ""),
-                BoundedNumber::within("iso16281.length_ratio", length_ratio, 1e-3..=10.0, ""),
-            ],
-            Self::Hertz => Vec::new(),
+            } => {
+                let numbers = vec![
+                    BoundedNumber::new("constant", constant, 1.0..=1e16, ""),
+                    BoundedNumber::new("length_ratio", length_ratio, 1e-3..=10.0, ""),
+                ];
+                ("iso16281", numbers)
+            }
+            Self::Hertz => ("hertz", Vec::new()),
         }
     }
 }
@@ -103,6 +120,17 @@ pub enum Slices {
     /// Accuracy of fitted nodes, as many as give normal and friction force of rolling balls to this share of the normal force,
     /// 1e-9 to 1e-1; found for each race when the scene is compiled.
     Accuracy(f64),
+}
+
+impl Slices {
+    /// The number of the way that cuts it, by the name of that.
+    pub(super) fn numbers(&self) -> BoundedNumber {
+        match *self {
+            Self::Fixed(n) => BoundedNumber::new("fixed", n as f64, 10.0..=1e5, ""),
+            Self::Fitted(n) => BoundedNumber::new("fitted", n as f64, 2.0..=64.0, ""),
+            Self::Accuracy(share) => BoundedNumber::new("accuracy", share, 1e-9..=1e-1, ""),
+        }
+    }
 }
 
 /// Friction of a slice: force μ(u) F u⃗ / √(u² + v_s²) against the slip velocity u⃗.
@@ -155,42 +183,45 @@ pub(super) fn extreme_slip([a, b, c]: [f64; 3]) -> f64 {
     }
 }
 
-/// The numbers of a friction law by the names of their fields, for checks.
-pub(super) struct FrictionNumbers {
-    /// Name in a document.
-    pub law: &'static str,
-    /// Fields of the law but the slip speed.
-    pub fields: Vec<(&'static str, f64)>,
-    /// Slip speed v_s \[m/s\].
-    pub slip_speed: f64,
-}
-
 impl Friction {
     /// The slip speed below which it fades \[m/s\]; none without friction.
     pub(crate) fn slip_speed(&self) -> Option<f64> {
-        self.numbers().map(|of| of.slip_speed)
+        match *self {
+            Self::None => None,
+            Self::Coulomb { slip_speed, .. }
+            | Self::Stribeck { slip_speed, .. }
+            | Self::Traction { slip_speed, .. } => Some(slip_speed),
+        }
     }
 
-    /// The numbers of the law; none without friction.
-    pub(super) fn numbers(&self) -> Option<FrictionNumbers> {
-        let (law, fields, slip_speed) = match *self {
+    /// Name of the law in a document, and its numbers; none without friction.
+    pub(super) fn numbers(&self) -> Option<(&'static str, Vec<BoundedNumber>)> {
+        let slip = |speed: f64| BoundedNumber::new("slip_speed", speed, 1e-9..=1e3, "m/s");
+        let number = |field, value: f64| BoundedNumber::new(field, value, 0.0..=1e6, "");
+        // A traction curve may begin at or fall to less than nothing, if another part makes up for it.
+        let signed = |field, value: f64| BoundedNumber::new(field, value, -1e6..=1e6, "");
+        Some(match *self {
             Self::None => return None,
             Self::Coulomb {
                 coefficient,
                 slip_speed,
-            } => ("coulomb", vec![("coefficient", coefficient)], slip_speed),
+            } => {
+                let numbers = vec![number("coefficient", coefficient), slip(slip_speed)];
+                ("coulomb", numbers)
+            }
             Self::Stribeck {
                 static_coefficient,
                 kinetic_coefficient,
                 stribeck_speed,
                 slip_speed,
             } => {
-                let fields = vec![
-                    ("stribeck_speed", stribeck_speed),
-                    ("static_coefficient", static_coefficient),
-                    ("kinetic_coefficient", kinetic_coefficient),
+                let numbers = vec![
+                    BoundedNumber::new("stribeck_speed", stribeck_speed, POSITIVE, "m/s"),
+                    number("static_coefficient", static_coefficient),
+                    number("kinetic_coefficient", kinetic_coefficient),
+                    slip(slip_speed),
                 ];
-                ("stribeck", fields, slip_speed)
+                ("stribeck", numbers)
             }
             Self::Traction {
                 a,
@@ -199,14 +230,17 @@ impl Friction {
                 d,
                 slip_speed,
             } => {
-                let fields = vec![("a", a), ("b", b), ("c", c), ("d", d)];
-                ("traction", fields, slip_speed)
+                let own = [
+                    signed("a", a),
+                    signed("b", b),
+                    number("c", c),
+                    number("d", d),
+                ];
+                (
+                    "traction",
+                    own.into_iter().chain([slip(slip_speed)]).collect(),
+                )
             }
-        };
-        Some(FrictionNumbers {
-            law,
-            fields,
-            slip_speed,
         })
     }
 }

@@ -4,6 +4,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::damage::{Cap, Damage, DefectDocument, Patch, Pit};
 use super::document::at_field;
+use super::numbers::{ANGLES, BoundedNumber};
 use super::surface::{AxialOffset, Surface};
 use super::width::Width;
 
@@ -26,6 +27,11 @@ pub struct Defect {
 }
 
 impl Defect {
+    /// Numbers of its place whose range depends on no other.
+    pub(super) fn numbers(&self) -> [BoundedNumber; 1] {
+        [BoundedNumber::new("angle", self.angle, ANGLES, "rad")]
+    }
+
     /// A damage of row 0 where contacts run, of a ball on ball 0: its surface and angle \[rad\]. Sizes of the damage are given by their
     /// names.
     ///

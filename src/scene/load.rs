@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::Scene;
 use super::absent;
 use super::expected::nearest;
-use super::numbers::BoundedNumber;
+use super::numbers::{ANGLES, BoundedNumber, PLACES};
 use super::ring::{Mount, RingName};
 use super::time::TimeFunction;
 use crate::base::error::{Error, Result};
@@ -35,6 +35,11 @@ impl Load {
             force: force.into(),
             at: None,
         }
+    }
+
+    /// Numbers of the load.
+    pub(super) fn numbers(&self) -> Vec<BoundedNumber> {
+        BoundedNumber::each("at", self.at.as_slice().as_flattened(), PLACES, "m")
     }
 
     /// The same at a point of the ring's frame \[m\].
@@ -104,18 +109,19 @@ impl Unbalance {
         }
     }
 
-    /// Numbers of the load that are checked by themselves.
-    pub(super) fn numbers(&self) -> [BoundedNumber; 2] {
+    /// Numbers of the load.
+    pub(super) fn numbers(&self) -> [BoundedNumber; 3] {
         // Named one by one, so that the compiler asks about a new field.
         let Self {
             ring: _,
             moment,
             angle,
-            axial_position: _,
+            axial_position,
         } = *self;
         [
-            BoundedNumber::within("moment", moment, 0.0..=1e6, "kg m"),
-            BoundedNumber::within("angle", angle, -1e3..=1e3, "rad"),
+            BoundedNumber::new("moment", moment, 0.0..=1e6, "kg m"),
+            BoundedNumber::new("angle", angle, ANGLES, "rad"),
+            BoundedNumber::new("axial_position", axial_position, PLACES, "m"),
         ]
     }
 }
@@ -138,6 +144,15 @@ pub enum Drive {
 }
 
 impl Drive {
+    /// Numbers of the drive.
+    pub(super) fn numbers(&self) -> Option<BoundedNumber> {
+        let Self::Torque { initial_speed, .. } = *self else {
+            return None;
+        };
+        let (field, range) = ("initial_speed", -1e6..=1e6);
+        Some(BoundedNumber::new(field, initial_speed, range, "rad/s"))
+    }
+
     /// Largest magnitude of the inner ring's speed that is known from the drive \[rad/s\].
     pub(crate) fn peak_speed(&self) -> f64 {
         match self {

@@ -1,13 +1,18 @@
 //! The oil between balls and races: its data sheet, and which effects of its film are computed.
 
+use std::ops::{Bound, RangeInclusive};
+
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+use super::numbers::{BoundedNumber, NumberRange, POSITIVE, up_to};
 use super::oils::{Base, NAMED_OILS, NamedOil, OilSheet, OilSource, Sourced, named_oil};
 use super::time::number_or_word;
 use crate::base::error::{Error, Result};
 
 /// 0 °C \[K\].
 const CELSIUS: f64 = 273.15;
+/// Coefficients of friction.
+const FRICTIONS: NumberRange = (Bound::Excluded(0.0), Bound::Excluded(0.5));
 /// Density of a mineral oil at 15 °C \[kg/m³\].
 const DENSITY_15: f64 = 880.0;
 
@@ -108,6 +113,50 @@ impl From<f64> for OilLayer {
 const FLOODED: &str = "flooded";
 
 impl Lubricant {
+    /// Viscosities \[m²/s\] from the lower limit of ASTM D341 to that above which no oil flows into a contact.
+    pub(super) const VISCOSITIES: RangeInclusive<f64> = 0.3e-6..=0.1;
+
+    /// Numbers of the oil by its data sheet, where it has them; by name or as given.
+    pub(super) fn numbers_of_oil(&self) -> [BoundedNumber; 6] {
+        let viscosity = |field, value| {
+            let unit = "m²/s; a viscosity of 68 mm²/s is 68e-6";
+            BoundedNumber::new(field, value, Self::VISCOSITIES, unit)
+        };
+        // Temperatures at which the formulas of oils hold.
+        let (temperatures, kelvin) = (233.0..=473.0, "K, which is -40 to 200 °C");
+        let coefficient = self.pressure_viscosity;
+        [
+            BoundedNumber::new("temperature", self.temperature, temperatures, kelvin),
+            viscosity("viscosity_40", self.viscosity_40),
+            viscosity("viscosity_100", self.viscosity_100),
+            BoundedNumber::new("density_15", self.density_15, 100.0..=1e4, "kg/m³"),
+            BoundedNumber::new("pressure_viscosity", coefficient, 1e-10..=1e-6, "1/Pa"),
+            BoundedNumber::new("limiting_stress", self.limiting_stress, FRICTIONS, ""),
+        ]
+    }
+
+    /// Numbers of the lubricant beside those of its oil.
+    pub(super) fn numbers(&self) -> [BoundedNumber; 10] {
+        let layer = self.oil_layer.thickness();
+        let [frequency, speed, load] = [
+            self.damping_frequency,
+            self.reference_speed,
+            self.reference_load,
+        ];
+        [
+            BoundedNumber::new("boundary_friction", self.boundary_friction, FRICTIONS, ""),
+            BoundedNumber::new("conductivity", self.conductivity, 1e-3..=1e3, "W/(m K)"),
+            BoundedNumber::new("roughness", self.roughness, up_to(1.0), "m"),
+            BoundedNumber::new("oil_layer", layer, up_to(1.0), "m"),
+            BoundedNumber::new("hysteresis", self.hysteresis, 0.0..=1.0, ""),
+            BoundedNumber::new("slip_floor", self.slip_floor, 1e-9..=1e3, "m/s"),
+            BoundedNumber::new("fill", self.fill, 0.0..=1.0, ""),
+            BoundedNumber::new("damping_frequency", frequency, POSITIVE, "Hz"),
+            BoundedNumber::new("reference_speed", speed, POSITIVE, "rad/s"),
+            BoundedNumber::new("reference_load", load, POSITIVE, "N"),
+        ]
+    }
+
     /// Whether the oil does anything: all of its effects may be left out.
     pub(crate) fn acts(&self) -> bool {
         self.film || self.damping || self.traction || self.rolling || self.fill > 0.0

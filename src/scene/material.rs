@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::numbers::BoundedNumber;
+
 /// Materials of the parts.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -46,5 +48,19 @@ impl Material {
             youngs_modulus,
             poisson_ratio,
         }
+    }
+    /// Numbers of the material.
+    pub(super) fn numbers(&self) -> [BoundedNumber; 3] {
+        // Named one by one, so that the compiler asks about a new field.
+        let Self {
+            density,
+            youngs_modulus,
+            poisson_ratio,
+        } = *self;
+        [
+            BoundedNumber::new("density", density, 1.0..=1e6, "kg/m³"),
+            BoundedNumber::new("youngs_modulus", youngs_modulus, 1e3..=1e15, "Pa"),
+            BoundedNumber::new("poisson_ratio", poisson_ratio, 0.0..=0.499, ""),
+        ]
     }
 }

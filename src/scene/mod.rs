@@ -40,6 +40,7 @@ mod path;
 mod points;
 pub mod presets;
 mod probe;
+mod ranges;
 mod recorded;
 mod ring;
 mod ring_force;
@@ -60,6 +61,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::base::error::{Error, Result};
 use crate::base::memory;
+use numbers::BoundedNumber;
 
 pub(crate) use antiderivative::Antiderivative;
 pub use approximations::Approximations;
@@ -80,6 +82,7 @@ pub use material::{Material, Materials};
 pub(crate) use oils::CENTISTOKE;
 pub use oils::{Base, NAMED_OILS, NamedOil, OilSheet, OilSource, Sourced, named_oil};
 pub use probe::{Component, ContactQuantity, ContactsProbe, MotionProbe, Probe, SlicesProbe};
+pub use ranges::ranges;
 pub use ring::{CoupledSupport, Mount, Ring, RingName, Support};
 pub use ring_force::{RingForce, RingForces, RingMotion};
 /// Value that [`Scene::with`] gives a field: a number, a text, a list or a document of JSON.
@@ -226,6 +229,11 @@ impl Scene {
             approximations: Approximations::default(),
             solver: Solver::default(),
         }
+    }
+
+    /// Numbers of the scene itself.
+    fn numbers(&self) -> Vec<BoundedNumber> {
+        BoundedNumber::each("gravity", &self.gravity, -1e6..=1e6, "m/s²")
     }
 
     /// Forces on rings that depend on their motion, by tables and by code, each with its path in the scene.

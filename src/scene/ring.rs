@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::TimeFunction;
 use super::absent;
-use super::numbers::{BoundedNumber, NumberRange};
+use super::numbers::{BoundedNumber, PLACES, POSITIVE, up_to};
 
 /// A ring: its mass and how it is held.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -40,8 +40,8 @@ pub struct Ring {
 }
 
 impl Ring {
-    /// Numbers of the ring that are checked by themselves, where they are given.
-    pub(super) fn numbers(&self) -> impl Iterator<Item = BoundedNumber> + use<> {
+    /// Numbers of the ring that are checked by themselves.
+    pub(super) fn numbers(&self) -> [BoundedNumber; 6] {
         // Named one by one, so that the compiler asks about a new field.
         let Self {
             mass,
@@ -50,23 +50,17 @@ impl Ring {
             width,
             support: _,
             tilt: _,
-            transverse_inertia: _,
-            centre_of_mass: _,
+            transverse_inertia,
+            centre_of_mass,
         } = self;
-        let positive = [
-            ("mass", *mass, "kg"),
-            ("inertia", *inertia, "kg m²"),
-            ("diameter", *diameter, "m"),
-            ("width", *width, "m"),
-        ];
-        positive.into_iter().filter_map(|(field, value, unit)| {
-            Some(BoundedNumber {
-                field,
-                value: value?,
-                range: NumberRange::UpTo(1e9),
-                unit,
-            })
-        })
+        [
+            BoundedNumber::new("mass", *mass, up_to(1e9), "kg"),
+            BoundedNumber::new("inertia", *inertia, up_to(1e9), "kg m²"),
+            BoundedNumber::new("diameter", *diameter, up_to(1e9), "m"),
+            BoundedNumber::new("width", *width, up_to(1e9), "m"),
+            BoundedNumber::new("transverse_inertia", *transverse_inertia, POSITIVE, "kg m²"),
+            BoundedNumber::new("centre_of_mass", *centre_of_mass, PLACES, "m"),
+        ]
     }
 }
 
@@ -126,6 +120,22 @@ impl Mount {
     /// A given motion \[m\], \[rad\].
     pub fn given(motion: impl Into<TimeFunction>) -> Self {
         Self::Given(Box::new(motion.into()))
+    }
+
+    /// Numbers of a spring along an axis, or about one.
+    pub(super) fn numbers(&self, turns: bool) -> Vec<BoundedNumber> {
+        let Self::Spring { stiffness, damping } = *self else {
+            return Vec::new();
+        };
+        let units = if turns {
+            ["N m/rad", "N m s/rad"]
+        } else {
+            ["N/m", "N s/m"]
+        };
+        vec![
+            BoundedNumber::new("stiffness", stiffness, 0.0..=1e15, units[0]),
+            BoundedNumber::new("damping", damping, 0.0..=1e12, units[1]),
+        ]
     }
 
     /// Whether forces move a body in this direction.
@@ -196,6 +206,12 @@ pub struct CoupledSupport {
 }
 
 impl CoupledSupport {
+    /// Numbers of the support whose range depends on no other.
+    pub(super) fn numbers(&self) -> [BoundedNumber; 1] {
+        let place = self.axial_position;
+        [BoundedNumber::new("axial_position", place, PLACES, "m")]
+    }
+
     /// Springs without dampers, at the ring's origin.
     pub fn new(stiffness: [[f64; 6]; 6]) -> Self {
         Self {

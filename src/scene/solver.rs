@@ -4,6 +4,8 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use super::numbers::{BoundedNumber, POSITIVE};
+
 /// The method of integration.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -62,5 +64,25 @@ impl Default for Solver {
             frequency_cap: true,
             reduce: true,
         }
+    }
+}
+
+impl Solver {
+    /// Numbers of the solver.
+    pub(super) fn numbers(&self) -> [BoundedNumber; 3] {
+        // Named one by one, so that the compiler asks about a new field.
+        let Self {
+            method: _,
+            rtol,
+            first_step,
+            max_step,
+            frequency_cap: _,
+            reduce: _,
+        } = *self;
+        [
+            BoundedNumber::new("rtol", rtol, 1e-12..=1e-1, ""),
+            BoundedNumber::new("first_step", first_step, POSITIVE, "s"),
+            BoundedNumber::new("max_step", max_step, POSITIVE, "s"),
+        ]
     }
 }

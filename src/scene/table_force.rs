@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::numbers::BoundedNumber;
 use super::{RingForce, RingMotion, RingName};
 
 /// A force on a ring's centre of mass that depends on its place along a direction, with a damper along the same.
@@ -34,6 +35,22 @@ pub struct TableForce {
 }
 
 impl TableForce {
+    /// Numbers of the force.
+    pub(super) fn numbers(&self) -> Vec<BoundedNumber> {
+        // Named one by one, so that the compiler asks about a new field.
+        let Self {
+            ring: _,
+            direction: _,
+            places,
+            forces,
+            damping,
+        } = self;
+        let mut all = BoundedNumber::each("places", places, -1.0..=1.0, "m");
+        all.extend(BoundedNumber::each("forces", forces, -1e12..=1e12, "N"));
+        all.push(BoundedNumber::new("damping", *damping, 0.0..=1e12, "N s/m"));
+        all
+    }
+
     /// The table without damping.
     pub fn new(
         ring: RingName,

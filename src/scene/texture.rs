@@ -1,7 +1,9 @@
 //! Texture: what grinding and honing leave on races and balls.
 
-use super::absent;
 use serde::{Deserialize, Serialize};
+
+use super::absent;
+use super::numbers::{BoundedNumber, POSITIVE};
 
 /// Many small waves around the races and balls of a row, with random phases and amplitudes that fall with their order n (`docs/model.md`,
 /// *Geometry of a row*): A_n = A_30 (30/n)^slope, times √(−ln v) with v uniform between 0 and 1.
@@ -50,6 +52,33 @@ impl Default for Texture {
 }
 
 impl Texture {
+    /// Largest seed: every document holds it exactly.
+    const LARGEST_SEED: u64 = (1 << 53) - 1;
+
+    /// Numbers of the texture.
+    pub(super) fn numbers(&self) -> [BoundedNumber; 6] {
+        // Named one by one, so that the compiler asks about a new field.
+        let Self {
+            outer,
+            inner,
+            ball,
+            slope,
+            orders: _,
+            seed,
+            reference_load,
+        } = *self;
+        // At least the largest: a larger one is not exact.
+        let seeds = 0.0..=Self::LARGEST_SEED as f64;
+        [
+            BoundedNumber::new("outer", outer, 0.0..=1e-6, "m"),
+            BoundedNumber::new("inner", inner, 0.0..=1e-6, "m"),
+            BoundedNumber::new("ball", ball, 0.0..=1e-6, "m"),
+            BoundedNumber::new("slope", slope, 0.5..=4.0, ""),
+            BoundedNumber::new("seed", seed as f64, seeds, ""),
+            BoundedNumber::new("reference_load", reference_load, POSITIVE, "N"),
+        ]
+    }
+
     /// Lowest order where none is given.
     const FIRST: u32 = 2;
     /// Highest order that any may have.

@@ -1,7 +1,10 @@
 //! Widths and floors of defects.
 
+use std::ops::RangeInclusive;
+
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+use super::numbers::BoundedNumber;
 use super::time::number_or_map;
 
 /// Width of a defect along its length.
@@ -26,6 +29,11 @@ pub struct WidthProfile {
 }
 
 impl WidthProfile {
+    /// Numbers of the profile whose range depends on no other.
+    pub(super) fn numbers(&self) -> Vec<BoundedNumber> {
+        BoundedNumber::each("widths", &self.widths, Width::WIDTHS, "m")
+    }
+
     /// Widths \[m\] at axial places from the defect's middle \[m\].
     pub fn new(positions: Vec<f64>, widths: Vec<f64>) -> Self {
         Self { positions, widths }
@@ -45,6 +53,18 @@ impl From<f64> for Width {
 }
 
 impl Width {
+    /// Widths that are allowed \[m\].
+    const WIDTHS: RangeInclusive<f64> = 0.0..=10.0;
+
+    /// The number that the width is, where it is one.
+    pub(super) fn numbers(&self) -> BoundedNumber {
+        let number = match self {
+            Self::Constant(width) => Some(*width),
+            Self::Profile(_) => None,
+        };
+        BoundedNumber::new("width", number, Self::WIDTHS, "m")
+    }
+
     /// Width \[m\] and its slope along z at an axial place from the defect's middle \[m\]; NaN where a profile lacks widths, which
     /// [`crate::Scene::validate`] refuses.
     ///
@@ -126,6 +146,12 @@ pub struct Floor {
 }
 
 impl Floor {
+    /// Numbers of the floor whose range depends on no other.
+    pub(super) fn numbers(&self) -> [BoundedNumber; 1] {
+        let elements = self.elements as f64;
+        [BoundedNumber::new("elements", elements, 1.0..=1e3, "")]
+    }
+
     /// Depth of the crests \[m\] and number of circles.
     pub fn new(depth: f64, elements: usize) -> Self {
         Self { depth, elements }

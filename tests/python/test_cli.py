@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import contextlib
+import functools
 import importlib.util
 import json
+import operator
 import os
 import platform
 import re
@@ -20,6 +22,9 @@ import pytest
 import ballrace as br
 from ballrace import _core
 from ballrace.cli import main
+from ballrace.scene.schema import schema
+from messages import leaves, put
+from test_scene import scenes
 
 
 @pytest.fixture(autouse=True)
@@ -331,6 +336,44 @@ def test_schema_names_every_field(capsys: pytest.CaptureFixture[str]) -> None:
     assert set(document["rows"][0]) <= set(schema["$defs"]["Row"]["properties"])
     assert schema["$defs"]["Iso16281"]["required"] == ["iso16281"]
     assert all("description" in field for field in schema["$defs"]["Row"]["properties"].values())
+
+
+def test_schema_refuses_what_no_scene_may_have() -> None:
+    """Truth: the core. What it refuses far out the schema refuses, but where a range depends on other fields."""
+    validate = jsonschema.Draft202012Validator(schema())
+    depending = {
+        "amplitude", "axial_offset", "axial_preload", "ball", "balls", "clearance", "damping", "depth",
+        "diameter_errors", "direction", "edge_radius", "given", "length", "orders", "outer_speed", "phase",
+        "inner_shoulder_radius", "outer_shoulder_radius", "pocket_errors", "positions", "row", "schema", "seed",
+        "side", "speed", "stiffness", "tilt", "z",
+    }  # fmt: skip
+    in_time = {"ramp", "sine", "spline", "table", "force", "moment", "value"}
+    seen: set[tuple[str, float]] = set()
+    loose = set()
+    for scene in scenes():
+        document = json.loads(scene.to_json())
+        assert not list(validate.iter_errors(document))
+        for path in leaves(document):
+            names = [key for key in path if isinstance(key, str)]
+            number = functools.reduce(operator.getitem, path, document)
+            if isinstance(number, bool) or not isinstance(number, int | float):
+                continue
+            for beyond in (-(10**13), 10**17):
+                if (
+                    (".".join(names), beyond) in seen
+                    or names[-1] in depending
+                    or in_time & {*names}
+                ):
+                    continue
+                seen.add((".".join(names), beyond))
+                changed = put(document, path, beyond)
+                try:
+                    br.Scene.from_json(json.dumps(changed))
+                except br.SceneError:
+                    if validate.is_valid(changed):
+                        loose.add(names[-1])
+    assert loose == set()
+    assert len(seen) > 200
 
 
 def test_doctor(capsys: pytest.CaptureFixture[str]) -> None:

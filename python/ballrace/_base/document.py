@@ -96,7 +96,7 @@ class Told(Part, metaclass=_OfKind):
 
 
 @functools.cache
-def _constants(kind: type[Told]) -> dict[str, Any]:
+def constants(kind: type[Told]) -> dict[str, Any]:
     """Return what is the same in all documents of a kind."""
     own = {field.name for field in dataclasses.fields(kind)}
     part: type[Told] = kind.__mro__[1]
@@ -119,7 +119,7 @@ def _told(
         )
         raise SceneError(_join(path, key), repr(value), f"left out, or {' or '.join(known)}")
     own = dict(fields)
-    for key, value in _constants(kind).items():
+    for key, value in constants(kind).items():
         if own.pop(key, value) != value:
             allowed = f"left out, or {value!r}, for a {kind.__name__}"
             raise SceneError(_join(path, key), repr(fields[key]), allowed)
@@ -172,8 +172,8 @@ def encode(value: object, path: str) -> Any:
 def _encode_fields(part: Part, path: str) -> dict[str, Any]:
     document: dict[str, Any] = {}
     if isinstance(part, Told):
-        constants = _constants(type(part)).items()
-        document = {k: v for k, v in constants if k not in part._telling or v is not None}
+        same = constants(type(part)).items()
+        document = {k: v for k, v in same if k not in part._telling or v is not None}
     for name, key, left_out in _names(type(part)):
         value = getattr(part, name)
         if not (left_out and (value is None or value is False or value == {})):

@@ -1,19 +1,22 @@
 """Schema of a document, from the dataclasses themselves: names, types, choices, defaults, meanings with units.
 
-The form is JSON Schema. The range of a number depends on the others, and is checked when a scene is read.
+The form is JSON Schema. Ranges of numbers are the core's own; those that depend on other fields are not there.
 """
 
 from __future__ import annotations
 
 import dataclasses
+import functools
 import inspect
+import json
 import re
 import types
 import typing
 from collections.abc import Mapping
 from typing import Any
 
-from .._base.document import INSTEAD, Part, Told, Variant, encode
+from .. import _core
+from .._base.document import INSTEAD, Part, Told, Variant, constants, encode
 
 __all__ = ["described"]
 
@@ -25,12 +28,32 @@ def described(kind: type[Part]) -> dict[str, Any]:
     return {**whole, "$defs": dict(sorted(known.items()))}
 
 
+@functools.cache
+def _ranges() -> dict[str, dict[str, dict[str, Any]]]:
+    """Return what the schema says of the range of each part's numbers."""
+    ranges: dict[str, dict[str, dict[str, Any]]] = json.loads(_core.scene_ranges())
+    return ranges
+
+
+def _ranged(field: dict[str, Any], kind: type[Part], key: str) -> dict[str, Any]:
+    """Return a field with the range of its number, or of those in its list."""
+    found = _ranges().get(kind.__name__, {}).get(key, {})
+    if "items" in found and "items" in field:
+        found = {"items": field["items"] | found["items"]}
+    return field | found
+
+
+def _range(field: dict[str, Any]) -> dict[str, Any]:
+    return {word: field[word] for word in field if word.lower().endswith(("minimum", "maximum"))}
+
+
 def _part(kind: type[Part], known: dict[str, Any]) -> dict[str, Any]:
     hints, descriptions = typing.get_type_hints(kind), _descriptions(kind)
     properties, required, either = {}, [], {}
     for field in dataclasses.fields(kind):
         key = field.name.removesuffix("_")
-        properties[key] = _type(hints[field.name], known) | _about(field, descriptions)
+        own = _ranged(_type(hints[field.name], known), kind, key)
+        properties[key] = own | _about(field, descriptions)
         if INSTEAD in field.metadata:
             other, meaning = field.metadata[INSTEAD]
             properties[other] = _type(hints[field.name], known) | {"description": meaning}
@@ -120,6 +143,12 @@ def _flat(kind: type[Told], known: dict[str, Any]) -> dict[str, Any]:
         words = [word for each in kind._kinds() if (word := getattr(each, key)) is not None]
         choices = [{"enum": words}, {"type": "null"}]
         told[key] = {"anyOf": choices, "description": descriptions[key]}
+    for key in fields:
+        # The keywords of a range that holds for all kinds, of which some have the same number in all documents.
+        ranges = [_range(part["properties"][key]) for part in parts if key in part["properties"]]
+        same = any(key in constants(each) for each in kind._kinds())
+        if same or any(each != ranges[0] for each in ranges):
+            fields[key] = {k: v for k, v in fields[key].items() if k not in _range(fields[key])}
     needed = [key for key in fields if all(key in part["required"] for part in parts)]
     return {**whole, "properties": {**fields, **told}, "required": needed}
 
@@ -129,5 +158,6 @@ def _variant(kind: type[Variant], known: dict[str, Any]) -> dict[str, Any]:
     inner = _part(kind, known)
     if kind.wraps:
         (inner,) = inner["properties"].values()
+        inner = _ranged(inner, kind, kind.tag)
     of = {"type": "object", "properties": {kind.tag: inner}, "required": [kind.tag]}
     return of | {"additionalProperties": False}

@@ -18,8 +18,8 @@ def schema() -> dict[str, Any]:
     >>> found = schema()
     >>> found["required"]
     ['rows', 'drive']
-    >>> found["$defs"]["Row"]["properties"]["ball_count"]
-    {'type': 'integer', 'description': 'Number of balls, 1 to 1000.'}
+    >>> found["$defs"]["Row"]["properties"]["ball_count"]["maximum"]
+    1000.0
     """
     heading = {
         "$schema": "https://json-schema.org/draft/2020-12/schema",

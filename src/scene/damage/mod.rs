@@ -7,7 +7,7 @@ mod kinds;
 
 use std::borrow::Cow;
 
-use super::numbers::BoundedNumber;
+use super::numbers::{BoundedNumber, POSITIVE};
 use super::width::{Floor, Width};
 
 pub(super) use document::DefectDocument;
@@ -78,7 +78,7 @@ struct About<'a> {
     finest: Option<f64>,
     /// Size of all that is not level over its own.
     around: f64,
-    /// Numbers beside width, length, edge radius and floor, with what is allowed.
+    /// Numbers of its own.
     numbers: Vec<BoundedNumber>,
 }
 
@@ -107,27 +107,35 @@ impl Damage {
             around: 1.0,
             numbers: Vec::new(),
         };
+        let width = |of: f64| Width::from(of).numbers();
+        let length = |of: f64| BoundedNumber::new("length", of, POSITIVE, "m");
+        let short = |of: Option<f64>| BoundedNumber::new("length", of, 0.0..=1.0, "m");
+        let edge = |of: f64| BoundedNumber::new("edge_radius", of, POSITIVE, "m");
         match self {
             Self::Patch(of) => About {
                 width: Cow::Borrowed(&of.width),
                 length: Some(of.length),
                 edge_radius: Some(of.edge_radius),
                 floor: of.floor.as_ref(),
+                numbers: vec![length(of.length), of.width.numbers(), edge(of.edge_radius)],
                 ..plain("patch", Lies::AlongAxis, 0.0)
             },
             Self::SteepPatch(of) => About {
                 length: Some(of.length),
                 floor: of.floor.as_ref(),
+                numbers: vec![length(of.length), width(of.width)],
                 ..plain("patch", Lies::AlongAxis, of.width)
             },
             Self::Cap(of) => About {
                 edge_radius: Some(of.edge_radius),
                 floor: of.floor.as_ref(),
+                numbers: vec![edge(of.edge_radius), width(of.width)],
                 ..plain("cap", Lies::OnBall, of.width)
             },
             Self::Pit(of) => About {
                 length: of.length,
                 finest: Some(of.width / 2.0),
+                numbers: vec![short(of.length), width(of.width)],
                 ..plain("pit", Lies::Anywhere, of.width)
             },
             Self::Dent(of) => About {
@@ -135,8 +143,10 @@ impl Damage {
                 finest: Some((RIM - 1.0) * of.width / 2.0),
                 around: RIM,
                 numbers: vec![
-                    BoundedNumber::within("depth", of.depth, 0.0..=1e-3, "m"),
-                    BoundedNumber::within("rim_height", of.rim_height, 0.0..=1e-4, "m"),
+                    short(of.length),
+                    width(of.width),
+                    BoundedNumber::new("depth", of.depth, 0.0..=1e-3, "m"),
+                    BoundedNumber::new("rim_height", of.rim_height, 0.0..=1e-4, "m"),
                 ],
                 ..plain("dent", Lies::Anywhere, of.width)
             },
@@ -215,7 +225,7 @@ impl Damage {
         self.about().floor
     }
 
-    /// Numbers of its own, in addition to width, length, edge radius and floor.
+    /// Numbers of its own, but for a width along its length and a floor.
     pub(super) fn numbers(&self) -> Vec<BoundedNumber> {
         self.about().numbers
     }

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use super::{Doubt, angle, length, phase};
 use crate::base::quantities::number;
 use crate::scene::contact::extreme_slip;
+use crate::scene::numbers::BoundedNumber;
 use crate::scene::{CageRing, Contact, Drive, Friction, Row, Scene, TimeFunction};
 
 /// Speed times pitch diameter, n d_m \[mm/min\]: bearings of aircraft engines come near it, and one of 120 mm bore on a
@@ -142,16 +143,17 @@ fn damping(path: &str, contact: &Contact, found: &mut Vec<Doubt>) {
 }
 
 fn friction(path: &str, friction: &Friction, found: &mut Vec<Doubt>) {
-    let Some(mut numbers) = friction.numbers() else {
+    let Some((law, numbers)) = friction.numbers() else {
         return;
     };
+    let number_of = |of: BoundedNumber| Some((of.field, of.value?));
+    let mut numbers: Vec<_> = numbers.into_iter().filter_map(number_of).collect();
     if let Friction::Traction { a, b, c, d, .. } = *friction {
         let slip = extreme_slip([a, b, c]);
         let peak = ((a + b * slip) * (-c * slip).exp() + d).max(a + d).max(d);
-        numbers.fields.push(("largest coefficient", peak));
+        numbers.push(("largest coefficient", peak));
     }
-    let law = numbers.law;
-    for (field, value) in numbers.fields {
+    for (field, value) in numbers {
         if field.ends_with("coefficient") && value > FRICTION {
             let usual = "rolling bearings have 0.001 to 0.2, dry steel less than 1";
             found.push(Doubt::new(
@@ -161,9 +163,9 @@ fn friction(path: &str, friction: &Friction, found: &mut Vec<Doubt>) {
             ));
         }
     }
-    if numbers.slip_speed > SLIP {
+    if let Some(speed) = friction.slip_speed().filter(|speed| *speed > SLIP) {
         let usual = "below it friction fades, so that rolling balls would have none; speeds are in metres a second";
-        let value = format!("{} m/s", number(numbers.slip_speed));
+        let value = format!("{} m/s", number(speed));
         found.push(Doubt::new(format!("{path}.{law}.slip_speed"), value, usual));
     }
 }

@@ -6,11 +6,14 @@ use crate::base::quantities::{length, number};
 use crate::scene::{Cage, CageGuidance, CageRing, Scene};
 
 pub(super) fn cage(scene: &Scene, cage: &Cage) -> Result<()> {
-    numbers("cage", cage.numbers())?;
-    cage.as_ring().map_or(Ok(()), |of| ring(scene, of))
+    match cage {
+        Cage::Links(links) => numbers("cage", links.numbers()),
+        Cage::Ring { ring: of } => ring(scene, of),
+    }
 }
 
 fn ring(scene: &Scene, ring: &CageRing) -> Result<()> {
+    numbers("cage.ring", ring.numbers())?;
     let at = |field: &str| format!("cage.ring.{field}");
     for (i, row) in scene.rows.iter().enumerate() {
         let (d, count) = (row.ball_diameter, row.ball_count);

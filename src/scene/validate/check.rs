@@ -1,11 +1,11 @@
 //! Checks of single numbers, mounts and names.
 
-use std::ops::RangeInclusive;
+use std::ops::{Bound, RangeBounds};
 
 use crate::base::error::{Error, Result};
 use crate::base::quantities;
 use crate::scene::Mount;
-use crate::scene::numbers::{BoundedNumber, NumberRange};
+use crate::scene::numbers::{BoundedNumber, NumberRange, POSITIVE};
 use crate::scene::path::shown;
 
 pub(super) fn finite(path: &str, value: f64) -> Result<()> {
@@ -16,63 +16,69 @@ pub(super) fn finite(path: &str, value: f64) -> Result<()> {
     }
 }
 
-/// Check of a positive number in some unit.
-pub(super) fn positive(path: &str, value: f64, unit: &str) -> Result<()> {
-    if value.is_finite() && value > 0.0 {
-        return Ok(());
-    }
-    let allowed = format!("a finite number above 0 {unit}");
-    Err(Error::scene(path, value, allowed.trim_end()))
-}
-
-/// Check of a number in some unit, above 0 and at most a bound.
-pub(super) fn up_to(path: &str, value: f64, most: f64, unit: &str) -> Result<()> {
-    if value > 0.0 && value <= most {
-        return Ok(());
-    }
-    let most = match unit {
-        "m" => quantities::length(most),
-        _ => format!("{} {unit}", quantities::number(most)),
-    };
-    Err(Error::scene(
-        path,
-        value,
-        format!("above 0 and at most {most}"),
-    ))
-}
-
 /// Check of a number in some unit, or none, within a range.
-pub(super) fn within(path: &str, value: f64, range: RangeInclusive<f64>, unit: &str) -> Result<()> {
+pub(super) fn within(
+    path: &str,
+    value: f64,
+    range: impl RangeBounds<f64>,
+    unit: &str,
+) -> Result<()> {
     if range.contains(&value) {
         return Ok(());
     }
-    let ends = [*range.start(), *range.end()];
-    let [from, to] = if unit == "m" {
-        ends.map(quantities::length)
+    let range = (range.start_bound().cloned(), range.end_bound().cloned());
+    Err(Error::scene(path, value, allowed(range, unit)))
+}
+
+/// Words for a range of numbers in some unit, or none.
+fn allowed(range: NumberRange, unit: &str) -> String {
+    let number = if unit == "m" {
+        quantities::length
     } else {
-        ends.map(quantities::number)
+        quantities::number
     };
-    let allowed = match unit {
-        "" | "m" => format!("from {from} to {to}"),
-        _ => format!("from {from} to {to} {unit}"),
+    let unit = match unit {
+        "" => String::new(),
+        _ => format!(" {unit}"),
     };
-    Err(Error::scene(path, value, allowed))
+    if range == POSITIVE {
+        return format!("a finite number above 0{unit}");
+    }
+    let low = match range.0 {
+        Bound::Included(low) => format!("from {}", number(low)),
+        Bound::Excluded(0.0) => "above 0".to_owned(),
+        Bound::Excluded(low) => format!("above {}", number(low)),
+        Bound::Unbounded => String::new(),
+    };
+    let high = match (range.1, range.0) {
+        (Bound::Included(high), Bound::Included(_)) => format!(" to {}", number(high)),
+        (Bound::Included(high), _) => format!(" and at most {}", number(high)),
+        (Bound::Excluded(high), _) => format!(" and below {}", number(high)),
+        (Bound::Unbounded, _) => String::new(),
+    };
+    // Lengths have units of their size.
+    let unit = if unit == " m" { "" } else { &unit };
+    format!("{low}{high}{unit}")
 }
 
-/// Check of the numbers of a part.
+/// Check of the numbers of a part that are given.
 pub(super) fn numbers(path: &str, of: impl IntoIterator<Item = BoundedNumber>) -> Result<()> {
-    of.into_iter().try_for_each(|number| {
-        let path = format!("{path}.{}", number.field);
-        match number.range {
-            NumberRange::Within(range) => within(&path, number.value, range, number.unit),
-            NumberRange::UpTo(most) => up_to(&path, number.value, most, number.unit),
-        }
-    })
-}
-
-/// Check of a place of a bearing or its shaft \[m\].
-pub(super) fn place(path: &str, value: f64) -> Result<()> {
-    within(path, value, -100.0..=100.0, "m")
+    for BoundedNumber {
+        field,
+        item,
+        value,
+        range,
+        unit,
+    } in of
+    {
+        let Some(value) = value.filter(|value| !range.contains(value)) else {
+            continue;
+        };
+        let item = item.map(|i| format!("[{i}]")).unwrap_or_default();
+        let path = format!("{path}.{field}{item}");
+        within(path.trim_start_matches('.'), value, range, unit)?;
+    }
+    Ok(())
 }
 
 /// Check of a length \[m\] below a limit.
@@ -87,17 +93,8 @@ pub(super) fn below(path: &str, value: f64, limit: f64, what: &str) -> Result<()
 
 /// Check of a direction along an axis, or one that turns.
 pub(super) fn mount(path: &str, mount: Option<&Mount>, turns: bool) -> Result<()> {
-    let Some(Mount::Spring { stiffness, damping }) = mount else {
-        return Ok(());
-    };
-    let units = if turns {
-        ["N m/rad", "N m s/rad"]
-    } else {
-        ["N/m", "N s/m"]
-    };
-    let at = |field: &str| format!("{path}.spring.{field}");
-    within(&at("stiffness"), *stiffness, 0.0..=1e15, units[0])?;
-    within(&at("damping"), *damping, 0.0..=1e12, units[1])
+    let spring = mount.map(|mount| mount.numbers(turns));
+    numbers(&format!("{path}.spring"), spring.into_iter().flatten())
 }
 
 pub(super) fn entry_name(collection: &str, name: &str) -> Result<()> {

@@ -1,20 +1,20 @@
 //! Materials, normal law and friction.
 
-use super::check::{numbers, positive, within};
+use super::check::numbers;
 use crate::base::error::{Error, Result};
 use crate::scene::contact::extreme_slip;
-use crate::scene::{Contact, Friction, Material, Materials, Row, Slices};
+use crate::scene::{Contact, Friction, Materials, Row};
 
 pub(super) fn materials(materials: &Materials) -> Result<()> {
-    material("materials.rings", &materials.rings)?;
-    material("materials.balls", &materials.balls)
+    numbers("materials.rings", materials.rings.numbers())?;
+    numbers("materials.balls", materials.balls.numbers())
 }
 
 /// Contact, friction and material that a row has of its own.
 pub(super) fn of_row(path: &str, row: &Row) -> Result<()> {
     let at = |field: &str| format!("{path}.{field}");
     if let Some(own) = &row.ball_material {
-        material(&at("ball_material"), own)?;
+        numbers(&at("ball_material"), own.numbers())?;
     }
     if let Some(own) = &row.contact {
         contact(&at("contact"), own)?;
@@ -25,54 +25,18 @@ pub(super) fn of_row(path: &str, row: &Row) -> Result<()> {
     }
 }
 
-fn material(path: &str, material: &Material) -> Result<()> {
-    let at = |field: &str| format!("{path}.{field}");
-    within(&at("density"), material.density, 1.0..=1e6, "kg/m³")?;
-    within(
-        &at("youngs_modulus"),
-        material.youngs_modulus,
-        1e3..=1e15,
-        "Pa",
-    )?;
-    within(
-        &at("poisson_ratio"),
-        material.poisson_ratio,
-        0.0..=0.499,
-        "",
-    )
-}
-
 pub(super) fn contact(path: &str, contact: &Contact) -> Result<()> {
-    let at = |field: &str| format!("{path}.{field}");
-    numbers(&at("law"), contact.law.numbers())?;
-    match contact.slices {
-        Slices::Fixed(n) if !(10..=100_000).contains(&n) => {
-            Err(Error::scene(at("slices.fixed"), n, "10 to 100000"))
-        }
-        Slices::Fitted(n) if !(2..=64).contains(&n) => {
-            Err(Error::scene(at("slices.fitted"), n, "2 to 64"))
-        }
-        Slices::Accuracy(a) if !(1e-9..=1e-1).contains(&a) => {
-            Err(Error::scene(at("slices.accuracy"), a, "from 1e-9 to 0.1"))
-        }
-        _ => within(&at("damping"), contact.damping, 0.0..=1e3, "s/m"),
-    }
+    let (law, of_law) = contact.law.numbers();
+    numbers(&format!("{path}.law.{law}"), of_law)?;
+    numbers(&format!("{path}.slices"), [contact.slices.numbers()])?;
+    numbers(path, contact.numbers())
 }
 
 pub(super) fn friction(path: &str, friction: &Friction) -> Result<()> {
-    let Some(numbers) = friction.numbers() else {
+    let Some((law, of_law)) = friction.numbers() else {
         return Ok(());
     };
-    let at = |field: &str| format!("{path}.{}.{field}", numbers.law);
-    for (field, value) in &numbers.fields {
-        match *field {
-            "stribeck_speed" => positive(&at(field), *value, "m/s")?,
-            // A traction curve may begin at or fall to less than nothing, if another part makes up for it.
-            "a" | "b" => within(&at(field), *value, -1e6..=1e6, "")?,
-            _ => within(&at(field), *value, 0.0..=1e6, "")?,
-        }
-    }
-    within(&at("slip_speed"), numbers.slip_speed, 1e-9..=1e3, "m/s")?;
+    numbers(&format!("{path}.{law}"), of_law)?;
     match *friction {
         Friction::Traction { a, b, c, d, .. } => traction(path, [a, b, c, d]),
         _ => Ok(()),

@@ -3,41 +3,36 @@
 use std::f64::consts::PI;
 use std::fmt::Display;
 
-use super::check::{below, finite, numbers, positive, within};
+use super::check::{below, finite, numbers, within};
 use super::race::limits;
 use crate::base::error::{Error, Result};
 use crate::base::quantities;
-use crate::scene::{Defect, Floor, Row, Scene, Surface, Width};
+use crate::scene::{Defect, Row, Scene, Surface, Width, WidthProfile};
 
 pub(super) fn defect(scene: &Scene, path: &str, defect: &Defect) -> Result<()> {
     let at = |field: &str| format!("{path}.{field}");
     let damage = &defect.damage;
     let row = scene.row_index(path, defect.row)?;
-    within(&at("angle"), defect.angle, -1e3..=1e3, "rad")?;
+    numbers(path, defect.numbers())?;
+    numbers(path, damage.numbers())?;
     if damage.is_small() {
         small(scene, path, row, defect)?;
-    } else if let Some(length) = damage.length() {
-        positive(&at("length"), length, "m")?;
-    }
-    if let Some(radius) = damage.edge_radius() {
-        positive(&at("edge_radius"), radius, "m")?;
     }
     if damage.is_of_balls() && defect.on != Surface::Ball {
         let allowed = "absent for a defect on a race";
         return Err(Error::scene(at("shape"), damage.word(), allowed));
     }
-    width(&at("width"), &damage.width_along())?;
-    numbers(path, damage.numbers())?;
+    if let Width::Profile(profile) = &*damage.width_along() {
+        width(&at("width"), profile)?;
+    }
     if let Some(offset) = defect.axial_offset.number() {
         finite(&at("axial_offset"), offset)?;
     }
     surface(scene, path, row, defect)?;
-    if let Some(Floor { depth, elements }) = damage.floor() {
+    if let Some(floor) = damage.floor() {
         let most = row.ball_diameter / 4.0;
-        within(&at("floor.depth"), *depth, 0.0..=most, "m")?;
-        if !(1..=1000).contains(elements) {
-            return Err(Error::scene(at("floor.elements"), elements, "1 to 1000"));
-        }
+        within(&at("floor.depth"), floor.depth, 0.0..=most, "m")?;
+        numbers(&at("floor"), floor.numbers())?;
     }
     Ok(())
 }
@@ -81,8 +76,6 @@ fn small(scene: &Scene, path: &str, row: &Row, defect: &Defect) -> Result<()> {
     let refuse = |field: &str, value: &dyn Display, allowed: &str| {
         Err(Error::scene(format!("{path}.{field}"), value, allowed))
     };
-    let length = defect.damage.length().unwrap_or(0.0);
-    within(&format!("{path}.length"), length, 0.0..=1.0, "m")?;
     if !row.has_plain_grooves() {
         let allowed = "absent in rows with race profiles, gothic arches or rounded shoulders";
         return refuse("shape", &defect.damage.word(), allowed);
@@ -146,36 +139,29 @@ fn cap(path: &str, row: &Row, defect: &Defect) -> Result<()> {
     }
 }
 
-fn width(path: &str, width: &Width) -> Result<()> {
-    match width {
-        Width::Constant(w) => within(path, *w, 0.0..=10.0, "m"),
-        Width::Profile(profile) => {
-            let (positions, widths) = (&profile.positions, &profile.widths);
-            if positions.is_empty() || positions.len() != widths.len() {
-                return Err(Error::scene(
-                    path,
-                    format!("{} positions, {} widths", positions.len(), widths.len()),
-                    "as many widths as positions, at least one",
-                ));
-            }
-            for (i, w) in widths.iter().enumerate() {
-                within(&format!("{path}.widths[{i}]"), *w, 0.0..=10.0, "m")?;
-            }
-            for (i, pair) in positions.windows(2).enumerate() {
-                if pair[1].partial_cmp(&pair[0]) != Some(std::cmp::Ordering::Greater) {
-                    return Err(Error::scene(
-                        format!("{path}.positions[{}]", i + 1),
-                        pair[1],
-                        format!(
-                            "above the position before it, {}",
-                            quantities::length(pair[0])
-                        ),
-                    ));
-                }
-            }
-            finite(&format!("{path}.positions[0]"), positions[0])
+fn width(path: &str, profile: &WidthProfile) -> Result<()> {
+    let WidthProfile { positions, widths } = profile;
+    if positions.is_empty() || positions.len() != widths.len() {
+        return Err(Error::scene(
+            path,
+            format!("{} positions, {} widths", positions.len(), widths.len()),
+            "as many widths as positions, at least one",
+        ));
+    }
+    numbers(path, profile.numbers())?;
+    for (i, pair) in positions.windows(2).enumerate() {
+        if pair[1].partial_cmp(&pair[0]) != Some(std::cmp::Ordering::Greater) {
+            return Err(Error::scene(
+                format!("{path}.positions[{}]", i + 1),
+                pair[1],
+                format!(
+                    "above the position before it, {}",
+                    quantities::length(pair[0])
+                ),
+            ));
         }
     }
+    finite(&format!("{path}.positions[0]"), positions[0])
 }
 
 fn on_ball(path: &str, row: &Row, defect: &Defect) -> Result<()> {

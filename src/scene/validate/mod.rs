@@ -12,9 +12,9 @@ mod race;
 mod texture;
 mod tilt;
 
-use super::{RingName, Row, SCHEMA, Scene, Solver};
+use super::{RingName, Row, SCHEMA, Scene};
 use crate::base::error::{Error, Result};
-use check::{entry_name, finite, positive, within};
+use check::{entry_name, finite, numbers};
 
 impl Scene {
     /// Checks every field; [`crate::compile()`] does it for you.
@@ -37,7 +37,7 @@ impl Scene {
             cage,
             drive: _,
             outer_speed: _,
-            gravity,
+            gravity: _,
             loads: _,
             moments: _,
             unbalances: _,
@@ -72,9 +72,7 @@ impl Scene {
         }
         load::drive(self)?;
         lubricant::lubricants(self)?;
-        for (i, g) in gravity.iter().enumerate() {
-            within(&format!("gravity[{i}]"), *g, -1e6..=1e6, "m/s²")?;
-        }
+        numbers("", self.numbers())?;
         load::loads(self)?;
         tilt::loads(self)?;
         self.check_tilted()?;
@@ -95,7 +93,7 @@ impl Scene {
             probe::probe(self, &format!("probes.{name}"), probe)?;
         }
         approximations.validate(self)?;
-        self::solver(solver)
+        numbers("solver", solver.numbers())
     }
 
     /// Checks what fault frequencies and lines depend on, its rows and speeds.
@@ -135,25 +133,4 @@ impl Scene {
             }
         }
     }
-}
-
-fn solver(solver: &Solver) -> Result<()> {
-    let Solver {
-        method: _,
-        rtol,
-        first_step,
-        max_step,
-        frequency_cap: _,
-        reduce: _,
-    } = *solver;
-    within("solver.rtol", rtol, 1e-12..=1e-1, "")?;
-    for (path, step) in [
-        ("solver.first_step", first_step),
-        ("solver.max_step", max_step),
-    ] {
-        if let Some(step) = step {
-            positive(path, step, "s")?;
-        }
-    }
-    Ok(())
 }

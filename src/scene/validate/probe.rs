@@ -1,8 +1,16 @@
 //! Probes.
 
-use super::check::within;
+use super::check::numbers;
 use crate::base::error::{Error, Result};
-use crate::scene::{Component, Probe, Scene};
+use crate::scene::numbers::BoundedNumber;
+use crate::scene::{Component, Probe, Scene, SlicesProbe};
+
+impl SlicesProbe {
+    /// Numbers of the probe whose range depends on no other.
+    pub(in crate::scene) fn numbers(&self) -> Vec<BoundedNumber> {
+        BoundedNumber::each("times", &self.times, 0.0..=1e9, "s")
+    }
+}
 
 fn known_body(scene: &Scene, path: &str, body: &str) -> Result<()> {
     let known = "\"outer\", \"inner\" or a ball of a row such as \"row0.ball3\"";
@@ -28,9 +36,7 @@ pub(super) fn probe(scene: &Scene, path: &str, probe: &Probe) -> Result<()> {
         }
         Probe::Slices(of) => {
             let path = format!("{path}.slices");
-            for (i, t) in of.times.iter().enumerate() {
-                within(&format!("{path}.times[{i}]"), *t, 0.0..=1e9, "s")?;
-            }
+            numbers(&path, of.numbers())?;
             chosen(scene, &path, of.row, of.balls.as_deref())
         }
     }

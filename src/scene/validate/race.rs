@@ -1,10 +1,9 @@
 //! Shapes of races.
 
-use std::f64::consts::FRAC_PI_2;
-
-use super::check::{up_to, within};
+use super::check::{numbers, within};
 use crate::base::error::{Error, Result};
 use crate::base::quantities;
+use crate::scene::numbers::up_to;
 use crate::scene::{Contact, GothicArch, NormalLaw, RaceProfile, Row};
 
 /// Fewest and most points of a profile.
@@ -41,7 +40,6 @@ pub(super) fn races(path: &str, row: &Row, contact: &Contact) -> Result<()> {
 
 fn race(path: &str, row: &Row, contact: &Contact, of: &RaceFields<'_>) -> Result<()> {
     let at = |field: &str| format!("{path}.{}_{field}", of.name);
-    shoulders(&at("shoulders"), of.shoulders)?;
     if let Some(profile) = of.profile {
         only(&at("arch"), of.arch.is_some(), "a profile")?;
         only(
@@ -56,7 +54,7 @@ fn race(path: &str, row: &Row, contact: &Contact, of: &RaceFields<'_>) -> Result
     }
     let Some(edge) = of.edge else { return Ok(()) };
     let path = at("shoulder_radius");
-    up_to(&path, edge, row.ball_diameter, "m")?;
+    within(&path, edge, up_to(row.ball_diameter), "m")?;
     only(
         &path,
         of.profile.is_some() || of.arch.is_some(),
@@ -85,19 +83,6 @@ fn only(path: &str, given: bool, beside: &str) -> Result<()> {
     Ok(())
 }
 
-fn shoulders(path: &str, shoulders: Option<[f64; 2]>) -> Result<()> {
-    for (side, angle) in shoulders.iter().flatten().enumerate() {
-        if !(*angle > 0.0 && *angle < FRAC_PI_2) {
-            return Err(Error::scene(
-                format!("{path}[{side}]"),
-                angle,
-                "above 0 and below π/2 rad, which is 90°",
-            ));
-        }
-    }
-    Ok(())
-}
-
 fn points(path: &str, row: &Row, profile: &RaceProfile) -> Result<()> {
     let RaceProfile { z, r } = profile;
     if z.len() != r.len() || !(POINTS.0..=POINTS.1).contains(&z.len()) {
@@ -120,28 +105,12 @@ fn points(path: &str, row: &Row, profile: &RaceProfile) -> Result<()> {
             ));
         }
     }
-    for (i, r) in r.iter().enumerate() {
-        within(&format!("{path}.r[{i}]"), *r, 1e-6..=100.0, "m")?;
-    }
-    Ok(())
+    numbers(path, profile.numbers())
 }
 
 fn gothic(path: &str, arch: &GothicArch, shoulders: Option<[f64; 2]>) -> Result<()> {
-    let steepest = 80_f64.to_radians();
+    numbers(path, arch.numbers())?;
     let angle = arch.shim_angle;
-    if !(angle > 0.0 && angle <= steepest) {
-        let allowed = format!(
-            "above 0 and at most {} rad, which is 80°",
-            quantities::number(steepest)
-        );
-        return Err(Error::scene(format!("{path}.shim_angle"), angle, allowed));
-    }
-    for (i, f) in arch.conformities.iter().flatten().enumerate() {
-        if !(*f > 0.5 && *f <= 1.0) {
-            let path = format!("{path}.conformities[{i}]");
-            return Err(Error::scene(path, f, "above 0.5 and at most 1"));
-        }
-    }
     if shoulders.is_some_and(|s| s.iter().any(|shoulder| *shoulder <= angle)) {
         let allowed = "below both shoulder angles";
         return Err(Error::scene(format!("{path}.shim_angle"), angle, allowed));

@@ -1,11 +1,8 @@
 //! Texture of races and balls.
 
-use super::check::{positive, within};
+use super::check::numbers;
 use crate::base::error::{Error, Result};
 use crate::scene::{Defect, Scene, Surface, Texture};
-
-/// Largest seed: every document holds it exactly.
-const LARGEST_SEED: u64 = (1 << 53) - 1;
 
 /// The texture of a row, if it has one.
 pub(super) fn texture(scene: &Scene, index: usize) -> Result<()> {
@@ -15,19 +12,11 @@ pub(super) fn texture(scene: &Scene, index: usize) -> Result<()> {
     };
     let path = format!("rows[{index}].texture");
     let at = |field: &str| format!("{path}.{field}");
-    let amplitudes = [
-        ("outer", texture.outer),
-        ("inner", texture.inner),
-        ("ball", texture.ball),
-    ];
-    for (field, amplitude) in amplitudes {
-        within(&at(field), amplitude, 0.0..=1e-6, "m")?;
-    }
-    if amplitudes.iter().all(|(_, amplitude)| *amplitude == 0.0) {
+    numbers(&path, texture.numbers())?;
+    if [texture.outer, texture.inner, texture.ball] == [0.0; 3] {
         let allowed = "an amplitude of outer, inner or ball above 0, or no texture";
         return Err(Error::scene(path, "no amplitude above 0", allowed));
     }
-    within(&at("slope"), texture.slope, 0.5..=4.0, "")?;
     if let Some([first, last]) = texture.orders
         && !(2 <= first && first <= last && last <= Texture::LAST)
     {
@@ -40,13 +29,6 @@ pub(super) fn texture(scene: &Scene, index: usize) -> Result<()> {
             format!("[{first}, {last}]"),
             allowed,
         ));
-    }
-    if texture.seed > LARGEST_SEED {
-        let allowed = format!("from 0 to {LARGEST_SEED}");
-        return Err(Error::scene(at("seed"), texture.seed, allowed));
-    }
-    if let Some(load) = texture.reference_load {
-        positive(&at("reference_load"), load, "N")?;
     }
     if !row.has_plain_grooves() {
         let allowed = "absent in rows with race profiles, gothic arches or rounded shoulders";

@@ -2,7 +2,7 @@
 
 use nalgebra::Matrix6;
 
-use super::check::{self, entry_name, place, positive, within};
+use super::check::{self, entry_name, numbers, within};
 use super::load::{direction, time_function};
 use crate::base::error::{Error, Result};
 use crate::base::quantities::number;
@@ -25,12 +25,6 @@ pub(super) fn ring(scene: &Scene, name: RingName) -> Result<()> {
     };
     let turned_by = scene.given_speed(name).map(|_| speed);
     let at = |field: &str| format!("{path}.{field}");
-    if let Some(inertia) = ring.transverse_inertia {
-        positive(&at("transverse_inertia"), inertia, "kg m²")?;
-    }
-    if let Some(centre) = ring.centre_of_mass {
-        place(&at("centre_of_mass"), centre)?;
-    }
     if let Some([x, y]) = ring.tilt
         && (!(x.is_finite() && y.is_finite()) || x.hypot(y) > FURTHEST)
     {
@@ -97,9 +91,9 @@ fn support(path: &str, coupled: &CoupledSupport, turned_by: Option<&str>) -> Res
     let CoupledSupport {
         stiffness,
         damping,
-        axial_position,
+        axial_position: _,
     } = coupled;
-    place(&format!("{path}.axial_position"), *axial_position)?;
+    numbers(path, coupled.numbers())?;
     for (field, rows) in [("stiffness", stiffness), ("damping", damping)] {
         let path = format!("{path}.{field}");
         for (i, row) in rows.iter().enumerate() {
@@ -142,14 +136,10 @@ pub(super) fn loads(scene: &Scene) -> Result<()> {
         time_function(&format!("moments.{name}.moment"), moment, 1e12, "N m")?;
     }
     for (name, load) in &scene.loads {
-        for (i, at) in load.at.unwrap_or_default().into_iter().enumerate() {
-            place(&format!("loads.{name}.at[{i}]"), at)?;
-        }
+        numbers(&format!("loads.{name}"), load.numbers())?;
     }
     for (name, unbalance) in &scene.unbalances {
         let path = format!("unbalances.{name}");
-        let offset = unbalance.axial_position.unwrap_or_default();
-        place(&format!("{path}.axial_position"), offset)?;
         let (ring, turns) = match unbalance.ring {
             RingName::Outer => (
                 &scene.outer_ring,
