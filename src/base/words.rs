@@ -82,6 +82,21 @@ impl Words {
     }
 }
 
+/// State that remembers the fields in this list, in its order. What stands behind `but` it is made with. The compiler asks about a
+/// field in neither.
+macro_rules! remembers {
+    ($of:ty: $($field:ident),+ $(; but $($other:ident),+)?) => {
+        impl $crate::base::words::Remembered for $of {
+            fn pass(&mut self, words: &mut $crate::base::words::Words) {
+                let Self { $($field,)+ $($($other: _,)+)? } = self;
+                $($crate::base::words::Remembered::pass($field, words);)+
+            }
+        }
+    };
+}
+
+pub(crate) use remembers;
+
 impl Remembered for u64 {
     fn pass(&mut self, words: &mut Words) {
         *self = words.word(*self);
@@ -172,13 +187,7 @@ mod tests {
         signed: i64,
     }
 
-    impl Remembered for Mixture {
-        fn pass(&mut self, words: &mut Words) {
-            self.numbers.pass(words);
-            self.maybe.pass(words);
-            self.signed.pass(words);
-        }
-    }
+    remembers!(Mixture: numbers, maybe, signed);
 
     fn kept() -> Mixture {
         Mixture {

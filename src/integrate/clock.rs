@@ -1,6 +1,6 @@
 //! Time as a sum of very many steps.
 
-use crate::base::words::{Remembered, Words};
+use crate::base::words::remembers;
 
 /// A compensated sum: `high` is the time, `low` what rounding has dropped.
 ///
@@ -34,12 +34,7 @@ impl Clock {
     }
 }
 
-impl Remembered for Clock {
-    fn pass(&mut self, words: &mut Words) {
-        self.high.pass(words);
-        self.low.pass(words);
-    }
-}
+remembers!(Clock: high, low);
 
 /// `x + y` as the rounded sum and its exact rounding error.
 fn two_sum(x: f64, y: f64) -> (f64, f64) {

@@ -1,6 +1,6 @@
 //! Step-size control: an error goes in, a factor for the step comes out.
 
-use crate::base::words::{Remembered, Words};
+use crate::base::words::remembers;
 
 /// Settings of the step-size controller.
 ///
@@ -129,12 +129,7 @@ impl Control {
     }
 }
 
-impl Remembered for Control {
-    fn pass(&mut self, words: &mut Words) {
-        self.memory.pass(words);
-        self.just_rejected.pass(words);
-    }
-}
+remembers!(Control: memory, just_rejected; but settings);
 
 /// The truth is the formula above, evaluated by hand.
 #[cfg(test)]

@@ -14,7 +14,7 @@ use super::step::Stepper;
 use super::stops::{Plan, Stop, Stops};
 use super::tableau::Tableau;
 use super::{Observer, System};
-use crate::base::words::{Remembered, Words};
+use crate::base::words::{Remembered, Words, remembers};
 
 /// A step below this many ulps of the time is too small.
 const SMALLEST_ULPS: f64 = 16.0;
@@ -334,13 +334,7 @@ impl Remembered for Integrator<'_> {
     }
 }
 
-impl Remembered for Accepted {
-    fn pass(&mut self, words: &mut Words) {
-        self.h.pass(words);
-        self.end.pass(words);
-        self.lands.pass(words);
-    }
-}
+remembers!(Accepted: h, end, lands);
 
 /// The failure of a memory that is of another task than the one that begins at a time.
 pub(crate) fn other_task(begins: f64) -> Failure {

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::stops::Plan;
 use super::tableau::Tableau;
-use crate::base::words::{Remembered, Words};
+use crate::base::words::remembers;
 
 /// Share of the stability limit above which a step counts as stiff: 3.25 for
 /// Dormand–Prince, as in Hairer's program.
@@ -83,15 +83,4 @@ impl StepStatistics {
     }
 }
 
-impl Remembered for StepStatistics {
-    fn pass(&mut self, words: &mut Words) {
-        self.accepted.pass(words);
-        self.rejected.pass(words);
-        self.nfev.pass(words);
-        self.smallest_step.pass(words);
-        self.smallest_step_time.pass(words);
-        self.largest_step.pass(words);
-        self.stiff.pass(words);
-        self.capped.pass(words);
-    }
-}
+remembers!(StepStatistics: accepted, rejected, nfev, smallest_step, smallest_step_time, largest_step, stiff, capped);

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use crate::base::clock;
 use crate::base::error::{Error, Result};
 use crate::base::interrupt;
-use crate::base::words::{Remembered, Words};
+use crate::base::words::remembers;
 use crate::integrate::StepStatistics;
 
 /// Works under a limit of wall time \[s\], checked as often as `progress` is called, so about every 20 ms, and by static
@@ -85,12 +85,7 @@ impl StepBudget {
     }
 }
 
-impl Remembered for StepBudget {
-    fn pass(&mut self, words: &mut Words) {
-        self.before.pass(words);
-        self.now.pass(words);
-    }
-}
+remembers!(StepBudget: before, now; but limit);
 
 #[cfg(test)]
 mod tests {

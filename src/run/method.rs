@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use crate::base::words::{Remembered, Words};
+use crate::base::words::{Words, remembers};
 use crate::dynamics::Dynamics;
 use crate::integrate::{
     self, Adams, DORMAND_PRINCE, DenseStep, Failure, Integrator, Observer, Options, Solution,
@@ -31,13 +31,7 @@ pub(crate) struct Memory {
     film_speed: Option<f64>,
 }
 
-impl Remembered for Memory {
-    fn pass(&mut self, words: &mut Words) {
-        self.integrator.pass(words);
-        self.matrix.pass(words);
-        self.film_speed.pass(words);
-    }
-}
+remembers!(Memory: integrator, matrix, film_speed);
 
 /// Name of the scene's method.
 pub(crate) fn name(method: Method) -> &'static str {

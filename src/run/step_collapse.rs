@@ -1,6 +1,6 @@
 //! Detects a collapse of the step size.
 
-use crate::base::words::{Remembered, Words};
+use crate::base::words::remembers;
 use crate::model::Model;
 
 /// Steps over which a collapse is seen.
@@ -40,9 +40,4 @@ impl StepCollapse {
     }
 }
 
-impl Remembered for StepCollapse {
-    fn pass(&mut self, words: &mut Words) {
-        self.steps.pass(words);
-        self.progress.pass(words);
-    }
-}
+remembers!(StepCollapse: steps, progress; but limit);

@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 use serde::{Deserialize, Serialize};
 
 use crate::base::error::Result;
-use crate::base::words::{Remembered, Words};
+use crate::base::words::remembers;
 use crate::contact::{Motion, wrapped};
 use crate::dynamics::Dynamics;
 use crate::inspect;
@@ -193,25 +193,9 @@ impl Orbits {
     }
 }
 
-impl Remembered for Orbits {
-    fn pass(&mut self, words: &mut Words) {
-        self.y.pass(words);
-        self.next.pass(words);
-        self.times.pass(words);
-        self.rings.pass(words);
-        self.balls.pass(words);
-        self.cages.pass(words);
-    }
-}
+remembers!(Orbits: y, next, times, rings, balls, cages);
 
-impl Remembered for BallCourse {
-    fn pass(&mut self, words: &mut Words) {
-        self.direction.pass(words);
-        self.advance.pass(words);
-        self.spin.pass(words);
-        self.turned.pass(words);
-    }
-}
+remembers!(BallCourse: direction, advance, spin, turned);
 
 /// How a row rolls at the contact angles of the static equilibrium, each race at its own.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
