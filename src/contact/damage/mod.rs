@@ -2,12 +2,11 @@
 //!
 //! A damage acts in one of two ways ([`Acts`]): the surface is absent over arcs at whose ends fault circles stand
 //! ([*Defects*](crate::equations#defects)), or the contact keeps whole surfaces and changes its energy, and with it its force. [`Facing`]
-//! is a ball before a race: `elements` has the surfaces that a slice meets there, `circles` fault circles against whatever stands opposite,
-//! `gradient` what makes their forces conservative, `released` the energy of what is smaller than the contact.
+//! is a ball before a race: `surfaces` has what a slice meets there, fault circles too, `gradient` what makes their forces conservative,
+//! `released` the energy of what is smaller than the contact.
 
 mod arc;
 mod cap;
-mod circles;
 mod dent;
 mod depth;
 mod direction;
