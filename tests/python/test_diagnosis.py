@@ -231,6 +231,7 @@ def decide(evidence: dict[Part, Any], **more: Any) -> Verdict:
     seen = br.diagnosis.Sensitivity(share=0.1, acceleration=1.0, width=1e-3)
     given: dict[str, Any] = {
         "size": None,
+        "falls": False,
         "is_run": False,
         "bursts": None,
         "seen": seen,
@@ -266,6 +267,36 @@ def test_lines_of_a_slow_run_leave_it_open() -> None:
     assert "from when it was new" in between.why
 
 
+def test_balls_that_fall_leave_it_open() -> None:
+    """Below 530 1/min gravity takes unloaded balls of a healthy 6205 off the outer race, which they strike.
+
+    Truth: ω_c² D/2 = 0.5 and 1.6 g. Simulated healthy bearings have such lines below 1 g (`_TINY`).
+    """
+    x = noise(blows(ORDERS.bpfo), 0.05)
+    for rpm, parts in ((380.0, ()), (680.0, ("outer_race",))):
+        for unit in (None, "m/s^2"):
+            found = br.diagnose(
+                5.0 * x / x.std(), "6205", rpm, fs=FS * rpm / RPM, unit=unit, speed_within=1e-3
+            )
+            assert found.parts == parts, (rpm, unit)
+            assert ("fall off the race" in found.why) == (not parts)
+
+
+def test_a_resonance_without_blows_adds_nothing_to_them() -> None:
+    """Weak blows at 3 kHz, and tones around 0.9 kHz at multiples of BPFO, a hundred times as strong.
+
+    Truth: what is impulsive is 0.05 m/s², too weak to be damage.
+    """
+    x = blows(ORDERS.bpfo)
+    t = np.arange(x.size) / FS
+    tones = np.sum([np.cos(2 * np.pi * k * ORDERS.bpfo * SHAFT * t) for k in (8, 9)], axis=0)
+    found = judged(0.05 * noise(x / x.std(), 0.05) + 5.0 * tones, unit="m/s^2")
+    strength = found.evidence["outer_race"].strength
+    assert strength.acceleration > 1.0
+    assert strength.impulsive < 0.06
+    assert found.verdict == "undecided"
+
+
 def test_waves_without_blows_leave_it_open() -> None:
     """Tones at multiples of BPFO, as of balls that pass through the load zone of a smooth bearing, in noise.
 
@@ -287,7 +318,7 @@ def test_waves_without_blows_leave_it_open() -> None:
 def test_likelihood_decides_where_chance_leaves_doubt() -> None:
     x = noise(blows(ORDERS.bpfi, duration=4.0), 0.05)
     evidence = dict(judged(100.0 * x / x.std(), unit="m/s^2").evidence)
-    size = Size(diameter=br.catalogue["6205"].pitch_diameter, rate=SHAFT)
+    size = Size(diameter=br.catalogue["6205"].pitch_diameter, rate=SHAFT, pressed=math.inf)
 
     def inner(chance: float, ratio: float, size: Size | None = size, **more: Any) -> Verdict:
         one = replace(evidence["inner_race"], probability=chance, ratio=ratio)

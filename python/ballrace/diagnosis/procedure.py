@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
@@ -43,6 +44,12 @@ if TYPE_CHECKING:
     from .severity import Machine
 
 __all__ = ["diagnose"]
+
+_GRAVITY = 9.81
+"""Acceleration of falling balls [m/s²]."""
+
+_A_TURN = 1.0
+"""Rate of the shaft of a record over its angle, whose speed is not known."""
 
 
 def diagnose(
@@ -179,7 +186,8 @@ def diagnose(
     shaft, bands = found.shaft, found.envelopes.bands
     diameter = _diameter(channel, kinematics)
     evidence = with_ratios(found.evidence, diameter, shaft.rate)
-    size = None if diameter is None else Size(diameter=diameter, rate=shaft.rate)
+    pressed = _pressed(kinematics, shaft)
+    size = None if diameter is None else Size(diameter=diameter, rate=shaft.rate, pressed=pressed)
     exact = within == 0.0 and channel.scene is not None and bearing is None
     is_run = exact and channel.is_run
     kurtosis = found.envelopes.impacts(size.faint if is_run and size is not None else 0.0)
@@ -188,7 +196,7 @@ def diagnose(
     seen = None if is_run else _seen(found, kinematics, undecided.threshold, diameter)
     impacts = unexplained(kurtosis, exact=exact, cage=cage)
     verdict = decided(
-        evidence, false_alarm, size=size, is_run=is_run, bursts=bursts_of(evidence), seen=seen,
+        evidence, false_alarm, size=size, falls=pressed < 1.0, is_run=is_run, bursts=bursts_of(evidence), seen=seen,
         wanting=[*clipped, *wanting_of(channel, shaft, kinematics, within, impacts)],
     )  # fmt: skip
     verdict = verdict if exact else _doubted(verdict, impacts, found, channel, kinematics)
@@ -242,6 +250,14 @@ def _diameter(channel: Channel, kinematics: Kinematics) -> float | None:
     if channel.unit != "m/s^2" or kinematics.row is None:
         return None
     return kinematics.row.pitch_diameter
+
+
+def _pressed(kinematics: Kinematics, shaft: ShaftRate) -> float:
+    """Return the acceleration with which the turn of the cage presses balls to the outer race, over gravity."""
+    if kinematics.row is None or shaft.nominal == _A_TURN:
+        return math.inf
+    turn = 2.0 * math.pi * kinematics.orders.ftf * shaft.rate
+    return turn**2 * 0.5 * kinematics.row.pitch_diameter / _GRAVITY
 
 
 def _undecided(
