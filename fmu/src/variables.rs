@@ -90,7 +90,9 @@ pub struct Table {
 
 impl Table {
     /// The variables of a scene.
-    pub fn of(scene: Scene) -> Result<Self> {
+    pub fn of(mut scene: Scene) -> Result<Self> {
+        // Outputs are points in time, and a tolerance that is a number is a parameter.
+        scene.solver.rtol = scene.solver.rtol.or_exact().into();
         let token = token(&scene);
         let mut list = vec![Variable {
             name: "time".to_owned(),

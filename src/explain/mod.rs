@@ -109,7 +109,7 @@ pub struct ContactKind {
 /// As [`crate::simulate()`].
 pub fn explain(scene: &Scene) -> Result<Explanation> {
     let (scene, placed) = place(scene)?;
-    let model = compile(&scene)?;
+    let model = compile(&scene)?.recorded_to(run::Run::default().band());
     let y0 = start(&model, &Start::Equilibrium)?;
     let reduction = Reduction::of(&model, &y0);
     let dynamics = Dynamics::begin(&model, reduction.as_ref(), &y0);

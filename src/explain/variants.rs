@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::cost::{self, Cost};
 use crate::model::Model;
 use crate::reduction::Reduction;
+use crate::run::Run;
 use crate::scene::{Load, Scene, Slices, Surface};
 use crate::statics::compile;
 use crate::statics::start::{Start, start};
@@ -174,7 +175,9 @@ fn offers(model: &Model, y0: &[f64]) -> Vec<(&'static str, &'static str, Model)>
     CHANGES
         .into_iter()
         .filter_map(|(change, note, apply)| {
-            let changed = compile(&apply(model.scene())?).ok()?;
+            let changed = compile(&apply(model.scene())?)
+                .ok()?
+                .recorded_to(Run::default().band());
             let y0 = changed.layout().carry(y0, model.layout());
             let holds = obstacles(Reduction::of(&changed, &y0).as_ref()) <= now;
             holds.then_some((change, note, changed))

@@ -8,8 +8,8 @@ use super::loads::{loads, moments};
 use super::race::{RaceGeometry, geometry};
 use super::ring::layout_of;
 use super::{
-    Ball, BodyId, CageModel, Dof, Model, Race, RingModel, RowModel, Scales, Spring, UnbalanceModel,
-    demand, nodes,
+    Ball, BodyId, CageModel, Dof, Fineness, Model, Race, RingModel, RowModel, Scales, Spring,
+    UnbalanceModel, demand, nodes,
 };
 use crate::base::error::{Error, Result};
 use crate::base::quantities::number;
@@ -103,6 +103,7 @@ pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
         mobility: bodies.iter().map(Body::mobility).collect(),
         bodies,
         scales: Scales::default(),
+        fineness: Fineness::of(scene.solver.rtol),
         instructions: InstructionSet::chosen().map_err(|unknown| {
             let allowed = format!("one of {}, or unset", unknown.available.join(", "));
             Error::scene("BALLRACE_SIMD", unknown.value, allowed)

@@ -22,6 +22,7 @@ mod reference;
 mod ring;
 mod rolling;
 mod scales;
+mod steps;
 mod texture;
 
 use std::ops::Range;
@@ -48,6 +49,7 @@ pub use ring::layout_of;
 pub(crate) use ring::{CoupledModel, RingModel};
 pub(crate) use rolling::{Between, PureRolling};
 pub use scales::Scales;
+pub(crate) use steps::Fineness;
 
 /// A compiled scene. Immutable and shared by threads.
 ///
@@ -75,6 +77,7 @@ pub struct Model {
     /// Moments that act on the rings.
     pub(crate) moments: Vec<MomentModel>,
     pub(crate) scales: Scales,
+    pub(crate) fineness: Fineness,
     pub(crate) instructions: InstructionSet,
 }
 

@@ -9,20 +9,20 @@ use super::step_limit;
 use crate::base::error::{Error, Result};
 use crate::model::{Body, Dof, Model};
 use crate::scene::{Component, Contact, Method, MotionProbe, Scene, Slices};
-use crate::signals::Accuracy;
+use crate::signals::{Accuracy, Bandwidth};
 use crate::statics::compile;
 use crate::statics::start::{Start, start};
 
 /// Length of a pilot run \[s\]: the horizon.
 pub(crate) const HORIZON: f64 = 3e-3;
-/// Sampling rate at which pilot runs are compared \[Hz\].
+/// Sampling rate at which pilot runs without a band are compared \[Hz\].
 const FS: f64 = 100e3;
 /// Samples of a pilot run below which it is sampled faster.
 const SAMPLES: f64 = 10.0;
 /// Share of the request that tolerance and nodes may each use.
 const SHARE: f64 = 1.0 / 3.0;
-/// First tolerance tried over the request: for 1 % the default, so that an impact after the pilot is met well.
-const FIRST: f64 = 1e-5;
+/// First tolerance tried over the request: for 1 % that of records in a band.
+const FIRST: f64 = 1e-2;
 /// The tightest.
 const TIGHTEST: f64 = 1e-11;
 /// Numbers of nodes tried: the default, then each about half as many again as the one before.
@@ -55,7 +55,7 @@ pub(crate) fn choose(
         let (count, error, _) = climb(&NODES, first, share, |count| pilots.run(rtol, count))?;
         (nodes, node_error) = (count, Some(error));
     }
-    scene.solver.rtol = rtol;
+    scene.solver.rtol = rtol.into();
     set_nodes(scene, nodes);
     Ok(Accuracy {
         requested,
@@ -67,9 +67,13 @@ pub(crate) fn choose(
     })
 }
 
-/// Sampling rate of a pilot run of a duration \[s\], of a run at a rate \[Hz\] which is exceeded only by the usual one.
-pub(crate) fn sampling_rate(duration: f64, of_run: f64) -> f64 {
-    (SAMPLES / duration).clamp(FS, FS.max(of_run))
+/// Sampling rate of a pilot run of a duration \[s\], of a run at a rate \[Hz\]: in a band that of the run, as long as there are some
+/// samples; of point samples one which is exceeded only by the usual one.
+pub(crate) fn sampling_rate(duration: f64, of_run: f64, bandwidth: Bandwidth) -> f64 {
+    match bandwidth {
+        Bandwidth::Auto => of_run.max(SAMPLES / duration),
+        Bandwidth::Raw => (SAMPLES / duration).clamp(FS, FS.max(of_run)),
+    }
 }
 
 fn is_fitted(contact: &Contact) -> bool {
@@ -170,7 +174,7 @@ impl<'a, 'b> Pilots<'a, 'b> {
 
     /// The acceleration with a tolerance and nodes.
     fn run(&mut self, rtol: f64, nodes: usize) -> Result<Vec<f64>> {
-        self.scene.solver.rtol = rtol;
+        self.scene.solver.rtol = rtol.into();
         set_nodes(&mut self.scene, nodes);
         let (values, evaluations) = (self.pilot)(&self.scene, &self.from)?;
         self.evaluations += evaluations;

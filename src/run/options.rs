@@ -29,7 +29,7 @@ pub struct Run {
     /// State at the start. Default equilibrium.
     #[serde(with = "starts")]
     pub start: Start,
-    /// Relative tolerance; absent: the scene's.
+    /// Relative tolerance; absent: the scene's, by default that which the band of the record asks for.
     pub rtol: Option<f64>,
     /// Relative error of accelerations that is aimed at, 1e-4 to 1e-1: nodes, tolerance and step cap are chosen for it by
     /// pilot runs of the first 3 ms; absent: those of the scene. See [`crate::Accuracy`].
@@ -96,6 +96,11 @@ impl Run {
     /// Never: every run has a JSON form.
     pub fn to_json(&self) -> String {
         serde_json::to_string(self).expect("a run is a JSON document")
+    }
+
+    /// Frequency up to which signals are recorded \[Hz\]; none for point samples, into which all frequencies fold.
+    pub(crate) fn band(&self) -> Option<f64> {
+        self.bandwidth.at(self.fs)
     }
 
     /// Number of samples k / fs below the duration.

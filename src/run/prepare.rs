@@ -10,7 +10,7 @@ use crate::base::error::Result;
 use crate::base::memory;
 use crate::model::{Model, Placed};
 use crate::scene::{Scene, TimeFunction};
-use crate::signals::{Accuracy, Bandwidth, Demand, Signals};
+use crate::signals::{Accuracy, Demand, Signals};
 use crate::statics::start::Start;
 use crate::statics::{compile, place};
 
@@ -28,16 +28,20 @@ pub(super) struct Prepared {
 }
 
 impl Prepared {
-    /// Compiles it as it was before loads and motions were set.
-    pub fn compile(&self) -> Result<Model> {
-        compile_with(&self.scene, &self.compiled_with)
+    /// Compiles it for a run, as it was before loads and motions were set.
+    pub fn compile(&self, run: &Run) -> Result<Model> {
+        compile_with(&self.scene, &self.compiled_with, run)
     }
 }
 
-/// Compiles a scene with some loads and given motions, by their paths, and then gives it its own.
-pub(super) fn compile_with(scene: &Scene, with: &BTreeMap<String, TimeFunction>) -> Result<Model> {
+/// Compiles a scene for a run with some loads and given motions, by their paths, and then gives it its own.
+pub(super) fn compile_with(
+    scene: &Scene,
+    with: &BTreeMap<String, TimeFunction>,
+    run: &Run,
+) -> Result<Model> {
     if with.is_empty() {
-        return compile(scene);
+        return Ok(compile(scene)?.recorded_to(run.band()));
     }
     let mut before = scene.clone();
     for (path, of) in with {
@@ -45,7 +49,7 @@ pub(super) fn compile_with(scene: &Scene, with: &BTreeMap<String, TimeFunction>)
             place.clone_from(of);
         }
     }
-    Ok(compile(&before)?.loaded(scene))
+    Ok(compile(&before)?.recorded_to(run.band()).loaded(scene))
 }
 
 /// How pilot runs are simulated.
@@ -62,7 +66,9 @@ pub(super) fn prepare(
 ) -> Result<Prepared> {
     let (scene, placed) = place(scene)?;
     let mut scene = scene.into_owned();
-    scene.solver.rtol = run.rtol.unwrap_or(scene.solver.rtol);
+    if let Some(rtol) = run.rtol {
+        scene.solver.rtol = rtol.into();
+    }
     scene.solver.method = run.method.unwrap_or(scene.solver.method);
     if run.accuracy.is_some() {
         accuracy::check(&scene)?;
@@ -94,10 +100,9 @@ fn pilot(
     let duration = run.duration.min(accuracy::HORIZON);
     let first = Run {
         duration,
-        fs: accuracy::sampling_rate(duration, run.fs),
+        fs: accuracy::sampling_rate(duration, run.fs, run.bandwidth),
         start: from.clone(),
         accuracy: None,
-        bandwidth: Bandwidth::Raw,
         settle: Some(0.0),
         // The clock of the run goes on.
         time_limit: None,

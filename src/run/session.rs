@@ -49,7 +49,7 @@ impl<'s> Session<'s> {
     ) -> Result<Self> {
         let in_blocks = !keep.is_all();
         let prepared = prepare(scene, run, in_blocks, simulate, progress)?;
-        let (model, distrust) = selftest::trusted(prepared.compile()?);
+        let (model, distrust) = selftest::trusted(prepared.compile(run)?);
         let y0 = start(&model, &prepared.settled.from)?;
         let sampling = Sampling::new(run.bandwidth, run.fs, model.scales.frequency)?;
         let (count, oversampling) = (run.samples()?, sampling.oversampling);
@@ -66,7 +66,7 @@ impl<'s> Session<'s> {
         remembered: &Remembrance,
         keep: Keep<'s>,
     ) -> Result<Self> {
-        let (model, distrust) = selftest::trusted(prepared.compile()?);
+        let (model, distrust) = selftest::trusted(prepared.compile(run)?);
         let options = options(&model);
         let y = vec![0.0; model.dim()];
         let mut trajectory = Trajectory::new(&model, y, whole(run), options.max_step);
@@ -161,7 +161,7 @@ impl<'s> Session<'s> {
     /// Goes on with another scene of the same bodies and probes from where it stands, defects placed, and with its model.
     pub fn change(&mut self, scene: Scene, placed: BTreeMap<String, Placed>) -> Result<()> {
         let compiled_with = self.held_motions(&scene);
-        let model = compile_with(&scene, &compiled_with)?;
+        let model = compile_with(&scene, &compiled_with, &self.run)?;
         check_kept(&self.model, &model)?;
         (self.prepared.compiled_with, self.prepared.placed) = (compiled_with, placed);
         self.go_on_with(model, scene);

@@ -92,7 +92,7 @@ fn overestimate(model: &Model) -> f64 {
     if solver.method != Method::Adams || model.has_films() || is_damped || is_undamped {
         return 1.0;
     }
-    (EXACT / solver.rtol)
+    (EXACT / model.fineness.rtol)
         .powf(0.25)
         .clamp(1.0, MOST_OVERESTIMATED)
 }
@@ -102,7 +102,7 @@ fn overestimate(model: &Model) -> f64 {
 /// of it matters.
 pub(crate) fn tolerance(dynamics: &Dynamics<'_>) -> Result<Tolerance> {
     let model = dynamics.model();
-    let (scales, rtol) = (&model.scales, model.scene.solver.rtol);
+    let (scales, rtol) = (&model.scales, model.fineness.rtol);
     let degrees = dynamics.degrees();
     let mut kept = vec![0_u32; model.body_count()];
     for (body, _) in &degrees {

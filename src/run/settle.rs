@@ -75,7 +75,7 @@ pub(crate) fn settle(
     if !chosen && run.settle.is_none_or(|asked| asked == 0.0) {
         return Ok(unsettled);
     }
-    let (model, _) = selftest::trusted(compile(&frozen(scene))?);
+    let (model, _) = selftest::trusted(compile(&frozen(scene))?.recorded_to(run.band()));
     let y0 = start(&model, &run.start)?;
     let seconds = run.settle.unwrap_or_else(|| needed(&model, &y0));
     if seconds == 0.0 {
@@ -130,9 +130,8 @@ pub(crate) fn settle(
 /// The same model with steps as long as a loose tolerance lets them be.
 fn coarse(model: &Model) -> Model {
     let mut coarse = model.clone();
-    let solver = &mut coarse.scene.solver;
-    solver.rtol = solver.rtol.max(COARSE);
-    solver.frequency_cap = false;
+    coarse.fineness.rtol = coarse.fineness.rtol.max(COARSE);
+    coarse.scene.solver.frequency_cap = false;
     coarse
 }
 

@@ -49,9 +49,10 @@ fn bounds(method: Method) -> MethodBounds {
     }
 }
 
-/// The largest step \[s\] by which a method is stable and accurate to a few percent.
+/// The largest step \[s\] by which a method is stable and accurate to a few percent, or as accurate as the record's band asks for.
 pub(crate) fn largest(method: Method, model: &Model) -> f64 {
     let of_contacts = at_damping(method, model.scales.frequency, damping(model));
+    let of_contacts = model.fineness.cap_factor * of_contacts;
     // Eight steps at least on the width of a contact, over which its texture is averaged, or of a pit.
     of_contacts.min(model.shortest_pass())
 }

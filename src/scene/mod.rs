@@ -87,7 +87,7 @@ pub use ring::{CoupledSupport, Mount, Ring, RingName, Support};
 pub use ring_force::{RingForce, RingForces, RingMotion};
 /// Value that [`Scene::with`] gives a field: a number, a text, a list or a document of JSON.
 pub use serde_json::Value;
-pub use solver::{Method, Solver};
+pub use solver::{Method, RelativeTolerance, Solver};
 pub use spin::Spin;
 pub use surface::{AxialOffset, Surface};
 pub use table_force::TableForce;
@@ -169,7 +169,7 @@ pub struct Scene {
     #[serde(default)]
     pub approximations: Approximations,
     /// Options of the integrator.
-    #[serde(default)]
+    #[serde(default = "Solver::unsaid")]
     pub solver: Solver,
 }
 

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 
 use super::numbers::{BoundedNumber, POSITIVE};
 
@@ -32,6 +32,73 @@ impl fmt::Display for Method {
     }
 }
 
+/// Relative tolerance of the steps: a number, or `"band"`, what the band of the record asks for.
+///
+/// ```
+/// use ballrace::scene::RelativeTolerance;
+/// assert_eq!(RelativeTolerance::from(1e-8).or_exact(), 1e-8);
+/// assert_eq!(RelativeTolerance::Band.or_exact(), 1e-7);
+/// ```
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub enum RelativeTolerance {
+    /// 1e-4 where a record is filtered to 20.5 kHz and less and the scene was measured to bear it, else 1e-7.
+    #[default]
+    Band,
+    /// This one, for any record.
+    Of(f64),
+}
+
+impl RelativeTolerance {
+    /// The tolerance that resolves accelerations at all frequencies.
+    pub const EXACT: f64 = 1e-7;
+
+    /// The number, or that for a record of all frequencies.
+    pub fn or_exact(self) -> f64 {
+        match self {
+            Self::Band => Self::EXACT,
+            Self::Of(rtol) => rtol,
+        }
+    }
+
+    /// The tolerance of a document that says nothing of it, as long as there were no others.
+    fn unsaid() -> Self {
+        Self::Of(Self::EXACT)
+    }
+}
+
+impl From<f64> for RelativeTolerance {
+    fn from(rtol: f64) -> Self {
+        Self::Of(rtol)
+    }
+}
+
+impl Serialize for RelativeTolerance {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Band => to.serialize_str("band"),
+            Self::Of(rtol) => to.serialize_f64(*rtol),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for RelativeTolerance {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        #[derive(Deserialize)]
+        #[serde(untagged)]
+        enum Written {
+            Number(f64),
+            Name(String),
+        }
+        match Written::deserialize(from) {
+            Ok(Written::Number(rtol)) => Ok(Self::Of(rtol)),
+            Ok(Written::Name(name)) if name == "band" => Ok(Self::Band),
+            _ => Err(de::Error::custom(
+                "a number from 1e-12 to 1e-1, or \"band\"",
+            )),
+        }
+    }
+}
+
 /// How the equations are integrated.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -39,8 +106,10 @@ impl fmt::Display for Method {
 pub struct Solver {
     /// The method. Default `adams`.
     pub method: Method,
-    /// Relative tolerance, 1e-12 to 1e-1; each kind of state has its scale from the scene. Default 1e-7.
-    pub rtol: f64,
+    /// Relative tolerance, 1e-12 to 1e-1, each kind of state having its scale from the scene; or that which the band of the
+    /// record asks for. Default the latter; of a document that does not say it, 1e-7.
+    #[serde(default = "RelativeTolerance::unsaid")]
+    pub rtol: RelativeTolerance,
     /// First step \[s\]; absent: Hairer's estimate.
     pub first_step: Option<f64>,
     /// Largest step \[s\]; absent: no limit other than `frequency_cap`.
@@ -54,11 +123,21 @@ pub struct Solver {
     pub reduce: bool,
 }
 
+impl Solver {
+    /// The options of a document that says nothing of them.
+    pub(super) fn unsaid() -> Self {
+        Self {
+            rtol: RelativeTolerance::unsaid(),
+            ..Self::default()
+        }
+    }
+}
+
 impl Default for Solver {
     fn default() -> Self {
         Self {
             method: Method::default(),
-            rtol: 1e-7,
+            rtol: RelativeTolerance::default(),
             first_step: None,
             max_step: None,
             frequency_cap: true,
@@ -80,7 +159,7 @@ impl Solver {
             reduce: _,
         } = *self;
         [
-            BoundedNumber::new("rtol", rtol, 1e-12..=1e-1, ""),
+            BoundedNumber::new("rtol", rtol.or_exact(), 1e-12..=1e-1, ""),
             BoundedNumber::new("first_step", first_step, POSITIVE, "s"),
             BoundedNumber::new("max_step", max_step, POSITIVE, "s"),
         ]

@@ -176,6 +176,9 @@ pub struct Provenance {
     pub method: String,
     /// Relative tolerance.
     pub rtol: f64,
+    /// Whether the band of the record chose tolerance and step cap.
+    #[serde(default)]
+    pub by_band: bool,
     /// Choice for a requested accuracy, where there was one.
     pub accuracy: Option<Accuracy>,
     /// Step cap \[s\]; absent: none.

@@ -54,7 +54,8 @@ impl AccelerationResidual {
     /// The residual of a record that is filtered down to a sampling rate \[Hz\], or not filtered.
     pub fn new(dynamics: &Dynamics<'_>, filtered: Option<f64>) -> Self {
         let model = dynamics.model();
-        let band = filtered.filter(|_| model.scene.solver.rtol <= HOLDS_VELOCITIES);
+        let fineness = model.fineness;
+        let band = filtered.filter(|_| fineness.by_band || fineness.rtol <= HOLDS_VELOCITIES);
         let mut rings = Race::BOTH.into_iter().map(Race::ring);
         let ring = rings.find(|ring| model.bodies[*ring].moves_along_axes());
         let degrees = dynamics.degrees();

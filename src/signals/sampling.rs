@@ -25,6 +25,13 @@ pub enum Bandwidth {
     Raw,
 }
 
+impl Bandwidth {
+    /// Frequency up to which a record at a sampling rate is not attenuated by the filter \[Hz\]; none without one.
+    pub(crate) fn at(self, fs: f64) -> Option<f64> {
+        (self == Self::Auto).then_some(FLAT * fs)
+    }
+}
+
 /// Sampling rate, and the grid on which filtered signals are read.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Sampling {

@@ -118,7 +118,7 @@ fn judged(scene: &Scene) -> Option<(f64, f64, [usize; 2])> {
         let mut fine = scene.clone();
         fine.contact.slices = Slices::Fitted(64);
         fine.solver.method = Method::DormandPrince;
-        fine.solver.rtol = rtol;
+        fine.solver.rtol = rtol.into();
         fine.solver.max_step = Some(share / model.scales().frequency);
         accelerations(&fine, &y0)
     };
@@ -132,7 +132,7 @@ fn judged(scene: &Scene) -> Option<(f64, f64, [usize; 2])> {
     }
     let (found, nfev) = accelerations(scene, &y0)?;
     let mut pair = scene.clone();
-    (pair.solver.method, pair.solver.rtol) = (Method::DormandPrince, 1e-6);
+    (pair.solver.method, pair.solver.rtol) = (Method::DormandPrince, 1e-6.into());
     let (_, of_pair) = accelerations(&pair, &y0)?;
     Some((
         running_errors(&found, &truth)[last],

@@ -58,7 +58,7 @@ fn random(noise: &mut Noise) -> Scene {
 fn error_and_horizon(scene: &Scene, accuracy: f64) -> (f64, f64) {
     let mut fine = scene.clone();
     fine.contact.slices = Slices::Fitted(64);
-    fine.solver.rtol = 1e-7 * accuracy;
+    fine.solver.rtol = (1e-7 * accuracy).into();
     let model = compile(&fine).unwrap();
     fine.solver.max_step = Some(0.2 / model.scales().frequency);
     let y0 = start(&model, &Start::Equilibrium).unwrap();

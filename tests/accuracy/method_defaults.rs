@@ -165,7 +165,7 @@ fn run(
     let mut scene = scene.clone();
     if let Some((rtol, share)) = finer {
         let frequency = compile(&scene).unwrap().scales().frequency;
-        (scene.solver.rtol, scene.solver.max_step) = (rtol, Some(share / frequency));
+        (scene.solver.rtol, scene.solver.max_step) = (rtol.into(), Some(share / frequency));
     }
     let run = Run {
         start: Start::State(y0.to_vec()),

@@ -57,7 +57,7 @@ fn a_frame_that_accelerates_is_gravity() {
         moved.loads.clear();
         moved.probes = [("ball".to_owned(), motion("row0.ball2"))].into();
         moved.rows[0].axial_preload = 2e-5;
-        moved.solver.rtol = 1e-9;
+        moved.solver.rtol = 1e-9.into();
         if spatial {
             moved.spin = Some(Spin::Free);
         }
@@ -107,7 +107,7 @@ fn the_motion_of_a_free_ring_given_back_makes_its_signals() {
         fs: 400_000.0,
         ..run()
     };
-    free.solver.rtol = 1e-9;
+    free.solver.rtol = 1e-9.into();
     let truth = simulate(&free, &run).unwrap();
     let column = |of: &Signals, name: &str| of.get(name).unwrap().to_vec();
     let mut led = free.clone();

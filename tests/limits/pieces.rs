@@ -231,7 +231,7 @@ fn snapshots_go_on_with_the_same_bits() {
 #[test]
 fn a_change_without_effect_leaves_the_motion_as_it_is() {
     for (name, mut scene) in scenes() {
-        scene.solver.rtol = 1e-8;
+        scene.solver.rtol = 1e-8.into();
         let mut whole = Simulation::begin(&scene, &run()).unwrap();
         let mut changed = Simulation::begin(&scene, &run()).unwrap();
         changed.advance_to(1.7e-3).unwrap();

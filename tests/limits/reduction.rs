@@ -327,7 +327,7 @@ fn random_scenes_agree() {
 /// Accelerations of the outer ring over 2 ms.
 fn signal(scene: &Scene, reduce: bool, y0: &[f64]) -> [Vec<f64>; 2] {
     let mut scene = scene.clone();
-    (scene.solver.reduce, scene.solver.rtol) = (reduce, 1e-9);
+    (scene.solver.reduce, scene.solver.rtol) = (reduce, 1e-9.into());
     let run = Run {
         duration: 2e-3,
         start: Start::State(y0.to_vec()),

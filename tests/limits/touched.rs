@@ -281,7 +281,7 @@ fn passes_are_those_of_the_kinematics() {
     let scene = |on| {
         let mut scene = with(angular_7208(), spall(on));
         scene.approximations.rolling = true;
-        scene.solver.rtol = 1e-3;
+        scene.solver.rtol = 1e-3.into();
         scene
     };
     let row = &angular_7208().rows[0];

@@ -147,7 +147,7 @@ fn nan_infinite_and_absurd_input_is_refused_by_name() {
             ("defects.spall.width", |s, x| {
                 s.defects.get_mut("spall").unwrap().damage.set_width(x);
             }),
-            ("solver.rtol", |s, x| s.solver.rtol = x),
+            ("solver.rtol", |s, x| s.solver.rtol = x.into()),
         ];
         for (field, set) in cases {
             let mut scene = good.clone();
@@ -231,7 +231,7 @@ fn a_collapsed_step_names_what_caused_it() {
     let mut damping = base.clone();
     damping.contact.damping = 1e3;
     damping.materials.balls.density = 1.0;
-    damping.solver.rtol = 1e-12;
+    damping.solver.rtol = 1e-12.into();
     let mut one = damping.clone();
     // One ball is pressed hardest, though another is nearer to the load line.
     one.rows[0].diameter_errors = vec![0.0; 13];
