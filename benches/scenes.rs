@@ -6,10 +6,10 @@
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::time::Instant;
 
-use ballrace::scene::{Defect, Friction, Lubricant, Pit, Scene, Surface, Texture, presets};
+use ballrace::scene::{Defect, Friction, Lubricant, Patch, Pit, Scene, Surface, Texture, presets};
 use ballrace::{Run, simulate};
 
-fn scenes() -> [(&'static str, Scene); 8] {
+fn scenes() -> [(&'static str, Scene); 10] {
     let dry = presets::deep_groove_6205(500.0, 0.0, 1797.0);
     let mut oiled = dry.clone();
     oiled.lubricant = Some(Lubricant::named("vg68", 328.15));
@@ -27,9 +27,18 @@ fn scenes() -> [(&'static str, Scene); 8] {
     let pit = |on| Defect::of(Pit::of_width(0.178e-3), on, -std::f64::consts::FRAC_PI_2);
     let pits = [pit(Surface::OuterRace), pit(Surface::Ball).on_ball(0)].map(pitted);
     let [pitted_race, pitted_ball] = pits;
+    let spalled = |width: f64| {
+        let mut scene = dry.clone();
+        let patch = Patch::of_width(width).length(3e-3).edge_radius(30e-6);
+        let spall = Defect::of(patch, Surface::OuterRace, -std::f64::consts::FRAC_PI_2);
+        scene.defects.insert("spall".to_owned(), spall);
+        scene
+    };
     [
         ("wheel bearing", presets::wheel_bearing(3000.0)),
         ("6205", dry.clone()),
+        ("6205 spall 0.5 mm", spalled(0.5e-3)),
+        ("6205 spall 1.5 mm", spalled(1.5e-3)),
         ("6205 pitted race", pitted_race),
         ("6205 pitted ball", pitted_ball),
         ("6205 in oil", oiled),

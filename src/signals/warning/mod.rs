@@ -19,6 +19,9 @@ use crate::simd::Distrust;
 /// a converged run is 1.3 % and more, below it at most 0.8 %. Without the step cap an
 /// undamped run with an error of 11 % stays below.
 const LARGEST_RESIDUAL: f64 = 0.05;
+/// The same where the band of the record chose the steps: most of it is noise beyond the band, 9 % in a record that is right
+/// within 0.2 %.
+const LARGEST_BY_BAND: f64 = 0.25;
 
 /// Share of the orbit's rate above which its loss is warned of: with friction balls slip by less than that.
 const LARGEST_LOSS: f64 = 0.005;
@@ -161,7 +164,12 @@ impl Signals {
 
     fn accelerations(&self) -> Option<Warning> {
         let residual = self.stats.acceleration_residual?;
-        (residual > LARGEST_RESIDUAL).then_some(Warning::Accelerations {
+        let largest = if self.provenance.by_band {
+            LARGEST_BY_BAND
+        } else {
+            LARGEST_RESIDUAL
+        };
+        (residual > largest).then_some(Warning::Accelerations {
             residual,
             stiff_share: self.stats.stiff_share,
             rtol: self.provenance.rtol,
