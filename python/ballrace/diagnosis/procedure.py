@@ -196,8 +196,8 @@ def diagnose(
     seen = None if is_run else _seen(found, kinematics, undecided.threshold, diameter)
     impacts = unexplained(kurtosis, exact=exact, cage=cage)
     verdict = decided(
-        evidence, false_alarm, size=size, falls=pressed < 1.0, is_run=is_run, bursts=bursts_of(evidence), seen=seen,
-        wanting=[*clipped, *wanting_of(channel, shaft, kinematics, within, impacts)],
+        evidence, false_alarm, size=size, falls=pressed < 1.0, is_run=is_run, bursts=bursts_of(evidence),
+        seen=seen, wanting=[*clipped, *wanting_of(channel, shaft, kinematics, within, impacts)],
     )  # fmt: skip
     verdict = verdict if exact else _doubted(verdict, impacts, found, channel, kinematics)
     deciding = bands.index(max((evidence[part] for part in ACCUSED), key=lambda one: one.z).band)
