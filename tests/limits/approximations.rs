@@ -409,6 +409,7 @@ fn rolling_balls_take_steps_as_long_as_free_ones() {
     let evaluations = |approximations| {
         let run = Run {
             duration: 5e-3,
+            rtol: Some(1e-7),
             ..Run::default()
         };
         let out = simulate(&thrust(approximations), &run).unwrap();
