@@ -22,7 +22,7 @@ pub(crate) struct Fineness {
 
 impl Fineness {
     /// What accelerations filtered to [`BAND`] need: nine scenes err by at most 0.70 % in the median of 1 ms from ten developed
-    /// states, and no statistic of 0.3 s is biased (`docs/records.md`).
+    /// states, and no statistic of 0.3 s is biased.
     const IN_BAND: Self = Self {
         rtol: 1e-4,
         cap_factor: 1.4,

@@ -40,6 +40,7 @@ impl fmt::Display for Method {
 /// assert_eq!(RelativeTolerance::Band.or_exact(), 1e-7);
 /// ```
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[non_exhaustive]
 pub enum RelativeTolerance {
     /// 1e-4 where a record is filtered to 20.5 kHz and less and the scene was measured to bear it, else 1e-7.
     #[default]
