@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from .. import demo, paper
 from .._base.progress import Bar
 from .._io.files import check_writable
+from .._base.libraries import needed
 from .arguments import Commands, added
 from .text import print_table
 
@@ -26,13 +27,18 @@ def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:
     )  # fmt: skip
     _add_folder(shown, "ballrace-demo", 0.1)
     published = added(
-        commands, "paper", "run the published cases: figures 6 to 11 and a table, published against ours",
+        commands, "paper", "run the published cases: figures 5 to 11 and a table, published against ours",
         "ballrace paper -o paper", _paper,
     )  # fmt: skip
     _add_folder(published, "ballrace-paper", paper.DURATION)
-    published.add_argument(
+    alone = published.add_mutually_exclusive_group()
+    alone.add_argument(
         "--json", action="store_true", help="the numbers alone: print and write paper.json"
     )
+    alone.add_argument(
+        "--page", action="store_true",
+        help="the page alone: figures 5 to 11, what the paper says of each beside ours, in paper.html",
+    )  # fmt: skip
 
 
 def _add_folder(parser: argparse.ArgumentParser, folder: str, duration: float) -> None:
@@ -61,9 +67,15 @@ def _demo(options: argparse.Namespace) -> None:
 
 def _paper(options: argparse.Namespace) -> None:
     folder: Path = options.output
-    check_writable(folder / "paper.json" if folder.exists() else folder)
+    first = "paper.html" if options.page else "paper.json"
+    check_writable(folder / first if folder.exists() else folder)
+    if options.page:
+        needed("plotly", "the page", extra="plot")
     with Bar("paper") as bar:
         found = paper.run(duration=options.duration, progress=bar.show)
+    if options.page:
+        print(f"Written: {paper.write_page(found, folder)}")
+        return
     written = paper.write(found, folder, numbers_only=options.json)
     if options.json:
         print(paper.dumps(found), end="")

@@ -167,3 +167,8 @@ def _why(made: Page, none: Case, towards: Case, away: Case) -> None:
         "ball meets a race in its middle plane whatever the thrust, could not distinguish these three."
     )
     made.text(text.replace("-", "−"))
+    made.text(
+        "How strong and how regular the impacts are under thrust away from the spall depends on clearance and "
+        "damping, which the paper does not give. This bearing has no clearance and is heavily damped; that of "
+        "the command “ballrace paper” is loose and lightly damped, and there they vary as in the paper."
+    )

@@ -1,4 +1,4 @@
-"""The published case, simulated: figures 6 to 11 of the paper and its numbers beside ours.
+"""The published case, simulated: figures 5 to 11 of the paper and its numbers beside ours.
 
 Source: P. Tkachuk, J. Strackeljan, *A 3D-ball bearing model for simulation of axial load variations*: a
 double-row wheel bearing under 7 kN with a defect on the outer ring, and 0, +3 or -3 kN along its axis.
@@ -38,9 +38,10 @@ from .measures import (
     settling_time,
     zone,
 )
-from .report import HEADER, dumps, rows, write
-from .simulations import FS, INSTANT, SETTLED, SIGNALS, dynamic, snapshot, static
-from .study import DURATION, Paper, run
+from .page import HEADER, rows
+from .report import dumps, write, write_page
+from .simulations import FS, INSTANT, SETTLED, SIGNALS, dynamic, snapshot, static, turned
+from .study import DURATION, Paper, bearing, run
 
 __all__ = [
     "AXIAL_LOADS",
@@ -61,6 +62,7 @@ __all__ = [
     "Static",
     "Target",
     "Zone",
+    "bearing",
     "clarity",
     "compare",
     "dumps",
@@ -74,6 +76,8 @@ __all__ = [
     "settling_time",
     "snapshot",
     "static",
+    "turned",
     "write",
+    "write_page",
     "zone",
 ]

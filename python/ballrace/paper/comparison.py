@@ -63,7 +63,9 @@ TARGETS = (
         "clarity_away", "11", "line over its surroundings, -3 kN, dB", "none", None, -_INF, 10.0
     ),
     Target("scatter_away", "11", "scatter of impacts at -3 kN, %", "varying", None, 20.0, _INF),
-    Target("largest_away", "11", "largest acceleration at -3 kN, m/s²", "< 90", None, 0.0, 90.0),
+    Target(
+        "largest_away", "11", "largest acceleration at -3 kN, m/s²", "axis to 90", None, 30.0, 120.0
+    ),
     Target("transient", "6, 11", "transient, rolling start, s", "0.02", 0.02, 0.01, 0.03),
     Target("start_at_rest", "", "equilibrium over rolling start, %", "", None, 0.0, 2.0),
 )

@@ -54,9 +54,14 @@ def static(scene: Scene) -> Static:
 
 def healthy_at_bottom(scene: Scene) -> Scene:
     """Return the healthy bearing turned so that ball 0 of row 0 is at -90°."""
-    by = -np.pi / 2.0 - scene.rows[0].start_angle
-    turned = {f"rows[{r}].start_angle": row.start_angle + by for r, row in enumerate(scene.rows)}
-    return scene.replace({"defects": {}, **turned})
+    return turned(scene, -np.pi / 2.0 - scene.rows[0].start_angle).replace({"defects": {}})
+
+
+def turned(scene: Scene, by: float) -> Scene:
+    """Return a scene whose balls begin further round by an angle [rad]."""
+    return scene.replace(
+        {f"rows[{r}].start_angle": row.start_angle + by for r, row in enumerate(scene.rows)}
+    )
 
 
 def dynamic(out: Signals) -> Dynamic:
@@ -133,6 +138,27 @@ def _middle(row: NDArray[np.int64], angle: Array) -> int:
     return int(np.argmin(np.where(row == 0, away, np.inf)))
 
 
+def from_start(
+    scene: Scene, duration: float, threads: int, progress: Callable[[float], object] | None = None
+) -> Signals:
+    """Run a scene from the paper's start and return what :func:`dynamic` needs."""
+    place: tuple[Component, ...] = ("x", "y")
+    probes = {
+        "outer": MotionProbe(body="outer"),
+        "ball": MotionProbe(body="row0.ball0", components=place),
+    }
+    return simulate(
+        scene.replace({"probes": probes}),
+        duration=duration,
+        fs=FS,
+        start="rolling",
+        threads=threads,
+        settle=0.0,
+        progress=progress,
+        bandwidth=None,
+    )
+
+
 def load_case(
     scene: Scene,
     duration: float,
@@ -141,24 +167,10 @@ def load_case(
     level: float | None,
 ) -> Case:
     """Run one load case; ``level`` is what a transient must fall below [m/s²], by default its own impact's."""
-    place: tuple[Component, ...] = ("x", "y")
-    probes = {
-        "outer": MotionProbe(body="outer"),
-        "ball": MotionProbe(body="row0.ball0", components=place),
-    }
-    out = simulate(
-        scene.replace({"probes": probes}),
-        duration=duration,
-        fs=FS,
-        start="rolling",
-        threads=threads,
-        settle=0.0,
-        progress=lambda share: show(0.6 * share),
-        bandwidth=None,
-    )
+    out = from_start(scene, duration, threads, lambda share: show(0.6 * share))
     features = dynamic(out)
     level = VISIBLE * features.impact if level is None else level
-    healthy = scene.replace({"probes": {"outer": probes["outer"]}, "defects": {}})
+    healthy = scene.replace({"probes": {"outer": MotionProbe(body="outer")}, "defects": {}})
 
     def unsettled(duration: float, start: Literal["rolling", "equilibrium"]) -> Signals:
         return simulate(
