@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from .. import demo, paper
+from .._base.libraries import needed
 from .._base.progress import Bar
 from .._io.files import check_writable
-from .._base.libraries import needed
 from .arguments import Commands, added
 from .text import print_table
 
