@@ -6,7 +6,7 @@ use std::thread;
 
 use ballrace::bindings::STACK;
 use ballrace::dynamics::Dynamics;
-use ballrace::inspect::ContactSummary;
+use ballrace::inspect::{self, ContactSummary};
 use ballrace::integrate::System;
 use ballrace::scene::Scene;
 use ballrace::{Bandwidth, Race, Result, Run, Simulation, Snapshot};
@@ -296,6 +296,18 @@ impl Instance {
             Source::Wrench(race, part) => {
                 let (race, part) = (*race, *part);
                 values.push(self.wrench(race)?[part]);
+            }
+            Source::Sensor(sensor, axis) => {
+                let (sensor, axis) = (sensor.clone(), *axis);
+                let rates = self.rates()?.to_vec();
+                let found =
+                    inspect::sensor_acceleration(self.simulation()?.model(), &rates, &sensor);
+                values.push(found?[axis]);
+            }
+            Source::Seat(axis) => {
+                let axis = *axis;
+                let simulation = self.simulation()?;
+                values.push(inspect::seat_force(simulation.model(), simulation.state())?[axis]);
             }
             Source::Loads(race, balls) => {
                 let (race, balls) = (*race, balls.clone());

@@ -43,6 +43,10 @@ pub enum Source {
     Motion(BodyId, Component),
     /// Part of what the balls put on a ring.
     Wrench(Race, usize),
+    /// Acceleration of a sensor of the structure along an axis.
+    Sensor(String, usize),
+    /// Force of the outer ring on the structure along an axis.
+    Seat(usize),
     /// Loads of the contacts of balls with a race, one value a ball.
     Loads(Race, Range<usize>),
 }
@@ -73,7 +77,11 @@ impl Variable {
     pub fn is_output(&self) -> bool {
         matches!(
             self.source,
-            Source::Motion(..) | Source::Wrench(..) | Source::Loads(..)
+            Source::Motion(..)
+                | Source::Wrench(..)
+                | Source::Sensor(..)
+                | Source::Seat(..)
+                | Source::Loads(..)
         )
     }
 }
@@ -296,6 +304,7 @@ fn outputs(scene: &Scene, list: &mut Vec<Variable>) {
             });
         }
     }
+    structure(scene, list);
     let mut first = 0;
     for (i, row) in scene.rows.iter().enumerate() {
         let balls = first..first + row.ball_count;
@@ -309,6 +318,31 @@ fn outputs(scene: &Scene, list: &mut Vec<Variable>) {
                 source: Source::Loads(race, balls.clone()),
             });
         }
+    }
+}
+
+/// The outputs of a structure: what its sensors measure, and the force on its seat.
+fn structure(scene: &Scene, list: &mut Vec<Variable>) {
+    let Some(structure) = &scene.structure else {
+        return;
+    };
+    for sensor in structure.sensors() {
+        for (axis, label) in ["ax", "ay", "az"].into_iter().enumerate() {
+            list.push(Variable {
+                name: format!("housing.{sensor}.{label}"),
+                about: format!("acceleration of the sensor {sensor}"),
+                unit: "m/s^2",
+                source: Source::Sensor(sensor.to_owned(), axis),
+            });
+        }
+    }
+    for (axis, part) in WRENCH[..3].iter().enumerate() {
+        list.push(Variable {
+            name: format!("seat.{part}"),
+            about: "force of the outer ring on the structure".to_owned(),
+            unit: "N",
+            source: Source::Seat(axis),
+        });
     }
 }
 

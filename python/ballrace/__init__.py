@@ -36,6 +36,7 @@ from .errors import (
 )
 from .scene import Scene
 from .scene.lubricant import lubricants
+from .scene.structure import Mode, Structure
 
 _MOVED = {
     "BearingDataset": "datasets",
@@ -145,6 +146,7 @@ __all__ = [
     "IntegrationError",
     "InternalError",
     "MemoryLimitError",
+    "Mode",
     "Model",
     "Pedestal",
     "Recording",
@@ -155,6 +157,7 @@ __all__ = [
     "SceneWarning",
     "Signals",
     "Simulation",
+    "Structure",
     "bearing",
     "bearing_split",
     "campaign",

@@ -265,8 +265,8 @@ class Stiffness:
 
     Entry ``[i, j]`` is the force [N] to be added along ``i`` per metre along ``j``, for small displacements:
     positive on the diagonal. The balls follow the rings, each free along its radius and along z at the angle where
-    the cage holds it. Supports of rings, gravity, damping and friction are not included. The matrices are
-    symmetric.
+    the cage holds it. Supports of rings and a structure below them, gravity, damping and friction are
+    not included. The matrices are symmetric.
 
     Attributes
     ----------

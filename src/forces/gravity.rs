@@ -1,7 +1,7 @@
 //! Gravity: F = m g on every body, energy −m g · r.
 
 use super::{Account, Damper, Force, ForceSums, RingWrench, Use};
-use crate::model::{BodyId, Dof, Model, Race};
+use crate::model::{BodyId, BodyKind, Dof, Model, Race};
 
 /// Weight of all bodies.
 #[derive(Debug)]
@@ -47,9 +47,12 @@ impl Force for Gravity {
     }
 }
 
-/// Weight of a body along x, y and z \[N\].
+/// Weight of a body along x, y and z \[N\]; none of a mode, whose place is that from its rest.
 #[inline]
 pub(crate) fn on(model: &Model, body: BodyId) -> [f64; 3] {
+    if let BodyKind::Mode(_) = model.layout().kind(body) {
+        return [0.0; 3];
+    }
     let mass = &model.bodies[body].mass;
     Dof::TRANSLATIONS.map(|dof| mass[dof] * model.scene.gravity[dof.index()])
 }

@@ -13,6 +13,7 @@ pub(crate) mod load;
 pub(crate) mod outside;
 mod rates;
 mod state;
+pub(crate) mod structure;
 mod sums;
 pub(crate) mod support;
 pub(crate) mod tilted;
@@ -29,11 +30,12 @@ pub(crate) use state::{State, Table};
 pub(crate) use sums::{ForceSums, Instant, RingWrench};
 
 /// The forces that are not contacts, in the order in which they are summed and listed.
-pub(crate) const ALL: [&dyn Force; 9] = [
+pub(crate) const ALL: [&dyn Force; 10] = [
     &cage::links::LinkForces,
     &cage::ring::CageRings,
     &drag::Drag,
     &support::Supports,
+    &structure::Seat,
     &gravity::Gravity,
     &load::Loads,
     &drive::DriveTorque,

@@ -2,7 +2,7 @@
 
 use super::{ContactSummary, Energy, Lubrication, SliceForce, raw};
 use crate::base::error::{Error, Result};
-use crate::model::{Model, Race};
+use crate::model::{Model, Race, StructureModel};
 
 /// A contact in a few numbers: ball `j` among all balls on a race.
 ///
@@ -74,6 +74,31 @@ pub fn wrench(model: &Model, y: &[f64], race: Race) -> Result<[f64; 6]> {
     Ok(raw::wrench(model, y, race))
 }
 
+/// Force of the outer ring on the seat of a structure in a state, along x, y and z \[N\]; 0 without a structure.
+///
+/// # Errors
+/// As [`energy()`].
+pub fn seat_force(model: &Model, y: &[f64]) -> Result<[f64; 3]> {
+    check_length(model, y)?;
+    let force = |structure: &StructureModel| structure.force(structure.stretch(model.layout(), y));
+    Ok(model
+        .structure
+        .as_ref()
+        .map_or([0.0; 3], |of| force(of).into()))
+}
+
+/// Acceleration of a sensor of the structure along x, y and z \[m/s²\], by the rates of a state; 0 of one that there is not.
+///
+/// # Errors
+/// As [`energy()`], of the `rates`.
+pub fn sensor_acceleration(model: &Model, rates: &[f64], sensor: &str) -> Result<[f64; 3]> {
+    check_length(model, rates)?;
+    let (layout, half) = (model.layout(), rates.len() / 2);
+    let found = model.structure.as_ref();
+    let found = found.map(|of| of.at_sensor(layout, &of.shapes(sensor), &rates[half..]));
+    Ok(found.map_or([0.0; 3], Into::into))
+}
+
 fn check_length(model: &Model, y: &[f64]) -> Result<()> {
     if y.len() == model.dim() {
         return Ok(());
@@ -116,10 +141,12 @@ mod tests {
                 energy(&model, y).map(|_| ()),
                 moments(&model, 0.0, y).map(|_| ()),
                 wrench(&model, y, race).map(|_| ()),
+                seat_force(&model, y).map(|_| ()),
+                sensor_acceleration(&model, y, "top").map(|_| ()),
             ]
             .map(|answer| answer.map_err(|error| error.to_string()).err())
         };
-        assert_eq!(words(&y, 0), [const { None }; 7]);
+        assert_eq!(words(&y, 0), [const { None }; 9]);
         for count in [0, 10, y.len() - 8, y.len() + 8] {
             let other = vec![0.0; count];
             let refused = format!(

@@ -10,7 +10,10 @@ mod moments;
 mod powers;
 mod stiffest;
 
-pub use checked::{cage_forces, contact, energy, lubrication, moments, slice_forces, wrench};
+pub use checked::{
+    cage_forces, contact, energy, lubrication, moments, seat_force, sensor_acceleration,
+    slice_forces, wrench,
+};
 pub use contacts::{ContactSummary, SliceForce};
 pub(crate) use contacts::{film_slip, largest_pressure, pressure, visit};
 pub use energy::Energy;

@@ -79,7 +79,7 @@ fn concerned(model: &Model, asked: Option<BodyId>, body: BodyId) -> bool {
     let row = |of: BodyId| match model.layout().kind(of) {
         BodyKind::Ball(ball) => Some(model.balls[ball].row),
         BodyKind::Cage(row) => Some(row),
-        BodyKind::Ring(_) => None,
+        BodyKind::Ring(_) | BodyKind::Mode(_) => None,
     };
     asked.is_none_or(|asked| asked == body || row(asked).is_some() && row(asked) == row(body))
 }

@@ -9,7 +9,7 @@ use super::race::{RaceGeometry, geometry};
 use super::ring::layout_of;
 use super::{
     Ball, BodyId, CageModel, Dof, Fineness, Model, Race, RingModel, RowModel, Scales, Spring,
-    UnbalanceModel, demand, nodes,
+    StructureModel, UnbalanceModel, demand, nodes,
 };
 use crate::base::error::{Error, Result};
 use crate::base::quantities::number;
@@ -88,6 +88,9 @@ pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
         bodies.extend(cage.map(|cage| cage.body(i, &scene.rows[i])));
     }
     classify(&mut rows);
+    let structure = scene.structure.as_ref();
+    let structure = structure.map(|of| StructureModel::new(of, &bodies[0]));
+    bodies.extend(structure.iter().flat_map(StructureModel::bodies));
     let unbalances = unbalances(scene, &bodies, &rings)?;
     let mut model = Model {
         scene: scene.clone(),
@@ -99,7 +102,8 @@ pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
         tilts: scene.tilts(),
         rings,
         unbalances,
-        springs: springs(&bodies),
+        springs: springs(&bodies, structure.is_some()),
+        structure,
         mobility: bodies.iter().map(Body::mobility).collect(),
         bodies,
         scales: Scales::default(),
@@ -346,10 +350,14 @@ fn ball_defects(
         .collect()
 }
 
-fn springs(bodies: &[Body]) -> Vec<Spring> {
+/// Springs of all bodies to the ground, where those of the outer ring along the axes may end at a seat.
+fn springs(bodies: &[Body], is_seated: bool) -> Vec<Spring> {
     let mut springs = Vec::new();
     for (b, body) in bodies.iter().enumerate() {
         for dof in Dof::ALL {
+            if is_seated && b == BodyId::OUTER.index() && !dof.is_rotation() {
+                continue;
+            }
             if let Degree::Free { stiffness, damping } = body.degrees[dof]
                 && (stiffness != 0.0 || damping != 0.0)
             {

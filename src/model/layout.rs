@@ -89,9 +89,11 @@ pub enum BodyKind {
     Ball(usize),
     /// A cage that is a ring, by its row.
     Cage(usize),
+    /// A mode of the structure around the outer ring, by its number; its coordinate stands along x.
+    Mode(usize),
 }
 
-/// A body of a model: outer ring, inner ring, all balls row by row, then the cages that are rings.
+/// A body of a model: outer ring, inner ring, all balls row by row, the cages that are rings, then the modes of a structure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 pub struct BodyId(usize);
 
@@ -138,6 +140,8 @@ pub struct Layout {
     bodies: usize,
     /// Cages that are rings, behind the balls.
     cages: usize,
+    /// Modes of a structure, behind the cages.
+    modes: usize,
     /// Tilts of outer and inner ring that move: bits in the order of their places.
     tilts: u8,
     /// Whether balls spin freely.
@@ -153,6 +157,7 @@ impl Layout {
         Self {
             bodies: RINGS + balls,
             cages: 0,
+            modes: 0,
             tilts: 0,
             turns: false,
             tumbling: [0; 2],
@@ -168,20 +173,30 @@ impl Layout {
         }
     }
 
+    /// The same with modes of a structure.
+    pub(crate) fn with_modes(self, modes: usize) -> Self {
+        Self {
+            bodies: self.bodies - self.modes + modes,
+            modes,
+            ..self
+        }
+    }
+
     /// Number of balls.
     #[inline]
     const fn balls(self) -> usize {
-        self.bodies - RINGS - self.cages
+        self.bodies - RINGS - self.cages - self.modes
     }
 
-    /// Ring, ball or cage.
+    /// Ring, ball, cage or mode.
     #[inline]
     pub const fn kind(self, body: BodyId) -> BodyKind {
         match body.0 {
             0 => BodyKind::Ring(Race::Outer),
             1 => BodyKind::Ring(Race::Inner),
             at if at < RINGS + self.balls() => BodyKind::Ball(at - RINGS),
-            at => BodyKind::Cage(at - RINGS - self.balls()),
+            at if at < self.bodies - self.modes => BodyKind::Cage(at - RINGS - self.balls()),
+            at => BodyKind::Mode(at + self.modes - self.bodies),
         }
     }
 
@@ -190,7 +205,7 @@ impl Layout {
     pub const fn as_ball(self, body: BodyId) -> Option<usize> {
         match self.kind(body) {
             BodyKind::Ball(ball) => Some(ball),
-            BodyKind::Ring(_) | BodyKind::Cage(_) => None,
+            BodyKind::Ring(_) | BodyKind::Cage(_) | BodyKind::Mode(_) => None,
         }
     }
 
@@ -198,6 +213,12 @@ impl Layout {
     #[inline]
     pub const fn cage(self, row: usize) -> BodyId {
         BodyId(RINGS + self.balls() + row)
+    }
+
+    /// A mode of the structure.
+    #[inline]
+    pub const fn mode(self, mode: usize) -> BodyId {
+        BodyId(self.bodies - self.modes + mode)
     }
 
     /// The same where balls spin freely, some of them with an attitude.

@@ -1,6 +1,6 @@
 //! The compiled scene: indices, arrays and constants that a run only reads.
 //!
-//! Bodies stand in one order everywhere: outer ring, inner ring, balls row by row, cages that are rings. The state vector holds
+//! Bodies stand in one order everywhere: outer ring, inner ring, balls row by row, cages that are rings, modes of a structure. The state vector holds
 //! (x, y, z, θ) of every body, then (vx, vy, vz, ω) of every body; [`Layout`] says where, also of what tilts and spins freely.
 
 mod at_rest;
@@ -23,6 +23,7 @@ mod ring;
 mod rolling;
 mod scales;
 mod steps;
+mod structure;
 mod texture;
 
 use std::ops::Range;
@@ -50,6 +51,7 @@ pub(crate) use ring::{CoupledModel, RingModel};
 pub(crate) use rolling::{Between, PureRolling};
 pub use scales::Scales;
 pub(crate) use steps::Fineness;
+pub(crate) use structure::StructureModel;
 
 /// A compiled scene. Immutable and shared by threads.
 ///
@@ -71,6 +73,8 @@ pub struct Model {
     /// Inverse of the mass of every body's free directions, 0 for the others.
     pub(crate) mobility: Vec<[f64; DOFS]>,
     pub(crate) rings: [RingModel; 2],
+    /// Structure on which the outer ring stands.
+    pub(crate) structure: Option<StructureModel>,
     /// Whether a ring is tilted or may tilt.
     tilts: bool,
     layout: Layout,
@@ -184,7 +188,7 @@ impl Model {
         &self.scene
     }
 
-    /// Number of bodies: two rings, all balls and the cages that are rings.
+    /// Number of bodies: two rings, all balls, the cages that are rings and the modes of a structure.
     pub fn body_count(&self) -> usize {
         self.bodies.len()
     }
@@ -200,7 +204,7 @@ impl Model {
         self.layout
     }
 
-    /// Names of the bodies in their order: `outer`, `inner`, `row0.ball0`, …, and of cages that are rings `row0.cage`.
+    /// Names of the bodies in their order: `outer`, `inner`, `row0.ball0`, …, of cages that are rings `row0.cage`, and of modes `structure.mode0`.
     pub fn bodies(&self) -> Vec<String> {
         self.bodies.iter().map(|body| body.name.clone()).collect()
     }
@@ -282,6 +286,8 @@ impl Model {
         match self.layout.kind(body) {
             BodyKind::Ball(ball) => self.balls[ball].side.radius,
             BodyKind::Cage(row) => self.scene.rows[row].pitch_diameter / 2.0,
+            // The coordinate of a mode is a length.
+            BodyKind::Mode(_) => 1.0,
             BodyKind::Ring(_) => {
                 let pitch = self.scene.rows.iter().map(|row| row.pitch_diameter);
                 pitch.sum::<f64>() / self.rows.len() as f64 / 2.0

@@ -60,13 +60,14 @@ impl RingModel {
     }
 }
 
-/// The layout of all bodies of a scene, cages that are rings included, of the tilts that move, and of balls that spin freely and tumble with a cap.
+/// The layout of all bodies of a scene, cages that are rings and modes of a structure included, of the tilts that move, and of balls that spin freely and tumble with a cap.
 pub fn layout_of(scene: &Scene) -> Layout {
     let counts = scene.rows.iter().map(|row| row.ball_count);
     let moves = |ring: &scene::Ring| ring.support.tilt_mounts().map(|of| of != Mount::Fixed);
     let cages = scene.cage_ring().map_or(0, |_| scene.rows.len());
     let layout = Layout::of_balls(counts.clone().sum())
         .with_cages(cages)
+        .with_modes(scene.structure.as_ref().map_or(0, |of| of.modes.len()))
         .with_tilts([&scene.outer_ring, &scene.inner_ring].map(moves));
     if !scene.balls_turn() {
         return layout;

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::{BodyId, Degree, Dof, Model, Race};
+use super::{BodyId, BodyKind, Degree, Dof, Model, Race};
 use crate::contact::{BallSide, ContactForce, Motion, Pair, Sink, V2, Waves, centrifugal};
 use crate::scene::Row;
 
@@ -42,9 +42,13 @@ impl Scales {
             radial += peak[0];
             axial += peak[1];
         }
-        for body in &model.bodies {
-            radial += body.mass[Dof::X] * scene.gravity[0].hypot(scene.gravity[1]);
-            axial += body.mass[Dof::Z] * scene.gravity[2].abs();
+        for body in model.layout().bodies() {
+            let mass = model.bodies[body].mass;
+            if matches!(model.layout().kind(body), BodyKind::Mode(_)) {
+                continue;
+            }
+            radial += mass[Dof::X] * scene.gravity[0].hypot(scene.gravity[1]);
+            axial += mass[Dof::Z] * scene.gravity[2].abs();
         }
         let mut scales = Self::default();
         for (i, row) in model.rows.iter().enumerate() {
@@ -104,6 +108,10 @@ impl Scales {
                     scales.frequency = scales.frequency.max((stiffness / mass).sqrt());
                 }
             }
+        }
+        if let Some(structure) = &model.structure {
+            let ring = model.bodies[BodyId::OUTER].mass[Dof::X];
+            scales.frequency = scales.frequency.max(structure.frequency(ring));
         }
         scales
     }

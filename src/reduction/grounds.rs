@@ -71,7 +71,7 @@ impl Grounds {
     pub fn reason(&self, model: &Model, body: BodyId, dof: Dof) -> Option<Reason> {
         let kind = model.layout().kind(body);
         let (ball, row) = match kind {
-            BodyKind::Ring(_) => (None, None),
+            BodyKind::Ring(_) | BodyKind::Mode(_) => (None, None),
             BodyKind::Ball(j) => (Some(&model.balls[j]), Some(model.balls[j].row)),
             BodyKind::Cage(row) => (None, Some(row)),
         };

@@ -81,6 +81,7 @@ impl AxialPlaces {
         match model.layout().kind(body) {
             BodyKind::Ring(race) => self.rings[race],
             BodyKind::Cage(row) => self.rows[row],
+            BodyKind::Mode(_) => 0.0,
             BodyKind::Ball(ball) => self.rows[model.balls[ball].row],
         }
     }
@@ -213,10 +214,13 @@ impl Reduction {
             .collect();
         self.keep(layout, |body, dof| reasons[body][dof].is_none());
         for reason in Reason::ALL {
-            let of = |degrees: &[Option<Reason>; DOFS]| {
-                degrees.iter().filter(|r| **r == Some(reason)).count()
+            // A mode has one direction, whatever the table of bodies has for it.
+            let counts = |body: &BodyId| !matches!(layout.kind(*body), BodyKind::Mode(_));
+            let of = |body: BodyId| {
+                let degrees = reasons[body].iter();
+                degrees.filter(|r| **r == Some(reason)).count()
             };
-            let degrees = reasons.iter().map(of).sum();
+            let degrees = layout.bodies().filter(counts).map(of).sum();
             if degrees > 0 {
                 let (what, reason) = reason.describe();
                 self.omissions.push(Omission {

@@ -46,6 +46,7 @@ mod ring;
 mod ring_force;
 mod solver;
 mod spin;
+mod structure;
 mod surface;
 mod table_force;
 mod texture;
@@ -89,6 +90,7 @@ pub use ring_force::{RingForce, RingForces, RingMotion};
 pub use serde_json::Value;
 pub use solver::{Method, RelativeTolerance, Solver};
 pub use spin::Spin;
+pub use structure::{Compliance, Mode, Structure};
 pub use surface::{AxialOffset, Surface};
 pub use table_force::TableForce;
 pub use texture::Texture;
@@ -117,6 +119,9 @@ pub struct Scene {
     /// Inner ring.
     #[serde(default)]
     pub inner_ring: Ring,
+    /// Structure on which the outer ring stands; absent: its support ends on the ground.
+    #[serde(default, skip_serializing_if = "absent::none")]
+    pub structure: Option<Structure>,
     /// Materials.
     #[serde(default)]
     pub materials: Materials,
@@ -210,6 +215,7 @@ impl Scene {
             rows,
             outer_ring: Ring::default(),
             inner_ring: Ring::default(),
+            structure: None,
             materials: Materials::default(),
             contact: Contact::default(),
             friction: Friction::default(),

@@ -1,6 +1,6 @@
 //! Probes: what a run records. A probe's columns are named after it: probe `outer` of a motion gives `outer.ay`.
 //!
-//! Motion, cage forces and friction torques are signals, filtered before they are sampled unless a run's bandwidth is
+//! Motion, cage forces, friction torques, sensors and the seat of a structure are signals, filtered before they are sampled unless a run's bandwidth is
 //! [`Raw`](crate::Bandwidth::Raw). Contacts, energies, films, moments, forces by origin and slices are values of a state: always points.
 
 use serde::{Deserialize, Serialize};
@@ -52,6 +52,16 @@ pub enum Probe {
         #[serde(default)]
         row: usize,
     },
+    /// Accelerations of the sensors of the structure, filtered: `<probe>.<sensor>.ax`, `.ay`, `.az` \[m/s²\].
+    #[non_exhaustive]
+    Structure {
+        /// Names of the sensors; absent: all.
+        #[serde(default)]
+        sensors: Option<Vec<String>>,
+    },
+    /// Force of the outer ring on the seat, by springs and dampers of its support, filtered: `<probe>.fx`, `.fy`, `.fz` \[N\].
+    #[non_exhaustive]
+    Seat {},
     /// Forces of the single slices of chosen contacts at chosen times; a table in addition to the signals.
     Slices(SlicesProbe),
 }
@@ -235,6 +245,16 @@ impl Probe {
     /// Forces on a body by origin.
     pub fn forces(body: impl Into<String>) -> Self {
         Self::Forces { body: body.into() }
+    }
+
+    /// Accelerations of all sensors of the structure.
+    pub fn structure() -> Self {
+        Self::Structure { sensors: None }
+    }
+
+    /// Force of the outer ring on the seat of the structure.
+    pub fn seat() -> Self {
+        Self::Seat {}
     }
 
     /// Films and losses of the oil of a row, from 0.

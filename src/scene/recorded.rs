@@ -13,7 +13,7 @@ const RINGS: [&str; 2] = ["outer", "inner"];
 impl Scene {
     /// The probes of a run: those of the scene. Where it has none, the motion of the outer ring if forces can move it along x,
     /// y or z, else that of the inner ring, each in the directions that can move; where both rings are held or follow given
-    /// motions, the loads of all contacts: `row0`, `row1`, …
+    /// motions, the loads of all contacts: `row0`, `row1`, … With a structure also its sensors, `housing`, and the force on its seat, `seat`.
     ///
     /// ```
     /// let mut scene = ballrace::scene::presets::deep_groove_6205(500.0, 0.0, 1800.0);
@@ -28,10 +28,17 @@ impl Scene {
             return Cow::Borrowed(&self.probes);
         }
         let moving = (0..2).find(|ring| self.is_moved(*ring));
-        Cow::Owned(match moving {
+        let mut recorded: BTreeMap<String, Probe> = match moving {
             Some(ring) => [(RINGS[ring].to_owned(), self.motion(ring))].into(),
             None => (0..self.rows.len()).map(contact_loads).collect(),
-        })
+        };
+        if let Some(structure) = &self.structure {
+            if !structure.sensors().is_empty() {
+                recorded.insert("housing".to_owned(), Probe::structure());
+            }
+            recorded.insert("seat".to_owned(), Probe::seat());
+        }
+        Cow::Owned(recorded)
     }
 
     /// Whether a body can move along x, y, z and about z, tilt about x and y, and turn freely about x and y; numbered as by

@@ -3,6 +3,7 @@
 use super::SliceRow;
 use super::blocks::rows_in_memory;
 use super::filter::HALF;
+use super::probes::{SEAT, SENSOR};
 use crate::dynamics::contribution_names;
 use crate::inspect::{Energy, Lubrication, MOMENTS};
 use crate::model::{DOFS, RINGS};
@@ -60,6 +61,11 @@ impl Demand {
                     (_, 2) => 1,
                     (_, count) => count,
                 },
+                Probe::Structure { sensors } => {
+                    let all = scene.structure.as_ref().map_or(0, |of| of.sensors().len());
+                    SENSOR.len() * sensors.as_ref().map_or(all, Vec::len)
+                }
+                Probe::Seat {} => SEAT.len(),
                 Probe::Energy {} => Energy::default().entries().len(),
                 Probe::Torque {} => RINGS,
                 Probe::Moments {} => MOMENTS.len(),
@@ -99,7 +105,8 @@ mod tests {
     use super::super::probes::Probes;
     use super::*;
     use crate::scene::{
-        Component, ContactsProbe, Lubricant, MotionProbe, RingName, SlicesProbe, presets,
+        Component, ContactsProbe, Lubricant, Mode, MotionProbe, RingName, SlicesProbe, Structure,
+        presets,
     };
     use crate::statics::compile;
 
@@ -108,6 +115,8 @@ mod tests {
     fn all_columns_are_counted() {
         let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
         scene.lubricant = Some(Lubricant::named("vg68", 328.15));
+        let foot = Mode::new(1200.0, 0.05, 2.0, [0.0, 1.0, 0.0]).sensor("top", [0.0, 1.0, 0.0]);
+        scene.structure = Some(Structure::new(vec![foot.sensor("side", [1.0, 0.0, 0.0])]));
         let one = ContactsProbe::of_row(0)
             .balls([1, 2])
             .races([RingName::Inner])
@@ -121,6 +130,8 @@ mod tests {
             one.into(),
             Probe::cage(0),
             Probe::energy(),
+            Probe::structure(),
+            Probe::seat(),
             Probe::torque(),
             Probe::moments(),
             Probe::lubrication(0),

@@ -1,13 +1,15 @@
 //! The probes of a scene with their indices looked up, and how their columns are sampled.
 
+use nalgebra::Vector3;
+
 use super::Column;
 use super::filter::SampleKind;
 use crate::base::error::Result;
 use crate::dynamics::{Dynamics, contribution_names, contributions_with_films};
 use crate::forces::cage::ring::carrier;
 use crate::inspect::{self, Energy, Lubrication, MOMENTS};
-use crate::model::{BodyId, Dof, Model, Race};
-use crate::scene::{Component, ContactQuantity, Probe, RingName, Scene};
+use crate::model::{BodyId, Dof, Model, Race, StructureModel};
+use crate::scene::{Component, ContactQuantity, Probe, RingName, Scene, Structure};
 use crate::statics::compile;
 
 /// Names and units of what a scene records.
@@ -35,6 +37,11 @@ pub(super) enum ProbeReader {
     Cage {
         row: usize,
     },
+    Structure {
+        /// Shapes of each sensor, mode by mode.
+        sensors: Vec<Vec<Vector3<f64>>>,
+    },
+    Seat,
     Energy,
     Torque,
     Moments,
@@ -108,6 +115,13 @@ impl Probes {
                 }
                 ProbeReader::Cage { row: *row }
             }
+            Probe::Structure { sensors } => self.sensors(model, name, sensors.as_deref()),
+            Probe::Seat {} => {
+                for label in SEAT {
+                    self.column(format!("{name}.{label}"), "N", Some(SampleKind::Smooth));
+                }
+                ProbeReader::Seat
+            }
             Probe::Energy {} => {
                 for (label, unit, _) in Energy::default().entries() {
                     self.column(format!("{name}.{label}"), unit, None);
@@ -171,6 +185,28 @@ impl Probes {
         ProbeReader::Motion { body, components }
     }
 
+    fn sensors(&mut self, model: &Model, name: &str, asked: Option<&[String]>) -> ProbeReader {
+        let all = model.scene.structure.iter().flat_map(Structure::sensors);
+        let asked = asked.map(|of| of.iter().map(String::as_str).collect());
+        let names: Vec<&str> = asked.unwrap_or_else(|| all.collect());
+        for sensor in &names {
+            for label in SENSOR {
+                let column = format!("{name}.{sensor}.{label}");
+                self.column(column, "m/s^2", Some(SampleKind::Slope));
+            }
+        }
+        self.needs_rhs |= !names.is_empty();
+        let shapes = |structure: &StructureModel| {
+            names
+                .iter()
+                .map(|sensor| structure.shapes(sensor))
+                .collect()
+        };
+        ProbeReader::Structure {
+            sensors: model.structure.as_ref().map(shapes).unwrap_or_default(),
+        }
+    }
+
     fn contacts(
         &mut self,
         model: &Model,
@@ -216,7 +252,15 @@ impl Probes {
 impl ProbeReader {
     /// Whether the probe's columns are signals, which are filtered, rather than readings of a state.
     pub fn is_signal(&self) -> bool {
-        matches!(self, Self::Motion { .. } | Self::Cage { .. } | Self::Torque)
+        match self {
+            Self::Motion { .. } | Self::Cage { .. } | Self::Torque => true,
+            Self::Structure { .. } | Self::Seat => true,
+            Self::Contacts { .. }
+            | Self::Energy
+            | Self::Moments
+            | Self::Lubrication { .. }
+            | Self::Forces { .. } => false,
+        }
     }
 
     /// Pushes one value a column at a state of all bodies, of whose velocities `accelerations` are the derivatives.
@@ -269,6 +313,26 @@ impl ProbeReader {
                 }
                 values.extend(inspect::raw::cage_forces(model, y, *row));
             }
+            Self::Structure { sensors } => {
+                if let Some(structure) = &model.structure {
+                    for shapes in sensors {
+                        let sensed = structure.at_sensor(layout, shapes, accelerations);
+                        values.extend(sensed.iter());
+                    }
+                }
+            }
+            Self::Seat => {
+                let force =
+                    |structure: &StructureModel| structure.force(structure.stretch(layout, y));
+                values.extend(
+                    model
+                        .structure
+                        .as_ref()
+                        .map(force)
+                        .unwrap_or_default()
+                        .iter(),
+                );
+            }
             Self::Energy => values.extend(
                 inspect::raw::energy(model, y)
                     .entries()
@@ -287,6 +351,10 @@ impl ProbeReader {
         }
     }
 }
+
+/// Columns of a sensor of the structure, and of its seat.
+pub(super) const SENSOR: [&str; 3] = ["ax", "ay", "az"];
+pub(super) const SEAT: [&str; 3] = ["fx", "fy", "fz"];
 
 /// Directions of a motion's components, by [`Component::direction`].
 const DIRECTIONS: [Dof; 8] = [

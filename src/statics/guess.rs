@@ -74,10 +74,10 @@ impl Problem<'_> {
                 part += tied * (a.sigma() * b.sigma());
             }
         }
-        for (a, race, dof) in unknowns::all() {
+        for (a, ..) in unknowns::all() {
             forces[a] -= self.resistance(a, rings);
-            stiffness[(a, a)] += self.support(race, dof);
         }
+        self.stiffen(&mut stiffness);
         self.apply(rings, &mut forces, &mut stiffness);
         (forces, stiffness)
     }

@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector, Vector2};
 use super::TOLERANCE;
 use super::problem::Problem;
 use super::springs::CageSpring;
-use super::unknowns::{self, RingStiffness, Rings};
+use super::unknowns::{RingStiffness, Rings};
 use crate::base::error::Result;
 use crate::base::interrupt;
 use crate::model::Race;
@@ -124,14 +124,12 @@ impl Problem<'_> {
         }
         self.add_cage(places, &pulls, &mut stiffness);
         self.apply(rings, &mut on_rings, &mut own_of_rings);
+        self.stiffen(&mut own_of_rings);
         for (a, &i) in self.free.iter().enumerate() {
-            let (race, dof) = unknowns::degree(i);
-            let support = self.support(race, dof);
             force[a] = on_rings[i] - self.resistance(i, rings);
             for (b, &k) in self.free.iter().enumerate() {
                 stiffness[(a, b)] = own_of_rings[(i, k)];
             }
-            stiffness[(a, a)] += support;
         }
         WholeSystem { force, stiffness }
     }

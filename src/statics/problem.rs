@@ -306,8 +306,8 @@ impl<'m> Problem<'m> {
         (pulled, pulling)
     }
 
-    /// Stiffness of a ring's support.
-    pub(super) fn support(&self, race: Race, dof: Dof) -> f64 {
+    /// Stiffness of a ring's own spring.
+    fn own_spring(&self, race: Race, dof: Dof) -> f64 {
         let stiffness = self.model.degree(race, dof).stiffness();
         if dof.is_rotation() {
             stiffness / (self.lever() * self.lever())
@@ -316,10 +316,44 @@ impl<'m> Problem<'m> {
         }
     }
 
+    /// Entry of the stiffness of the rings' supports: of an outer ring on a structure that of both in series, else the spring's.
+    pub(super) fn support(&self, a: usize, b: usize) -> f64 {
+        let ((race, dof), (other, along)) = (unknowns::degree(a), unknowns::degree(b));
+        match &self.model.structure {
+            Some(structure)
+                if [race, other] == [Race::Outer; 2]
+                    && !dof.is_rotation()
+                    && !along.is_rotation() =>
+            {
+                structure.effective[(dof.index(), along.index())]
+            }
+            _ if a == b => self.own_spring(race, dof),
+            _ => 0.0,
+        }
+    }
+
+    /// Adds the stiffness of the rings' supports.
+    pub(super) fn stiffen(&self, stiffness: &mut RingStiffness) {
+        for a in 0..OF_RINGS {
+            stiffness[(a, a)] += self.support(a, a);
+        }
+        if self.model.structure.is_some() {
+            for (a, b) in [(0, 1), (0, 2), (1, 2)] {
+                let dofs = [a, b].map(|i| unknowns::at(Race::Outer, Dof::TRANSLATIONS[i]));
+                let coupled = self.support(dofs[0], dofs[1]);
+                stiffness[(dofs[0], dofs[1])] += coupled;
+                stiffness[(dofs[1], dofs[0])] += coupled;
+            }
+        }
+    }
+
     /// Resistance of a ring's support where the ring is.
     pub(super) fn resistance(&self, at: usize, rings: &Rings) -> f64 {
-        let (race, dof) = unknowns::degree(at);
-        self.support(race, dof) * (rings[at] - self.nominal[at])
+        let by = |other: usize| self.support(at, other) * (rings[other] - self.nominal[other]);
+        if self.model.structure.is_none() {
+            return by(at);
+        }
+        (0..OF_RINGS).map(by).sum()
     }
 
     /// Whether a support holds a ball at its nominal place.
@@ -350,6 +384,9 @@ impl<'m> Problem<'m> {
             }
         }
         start::seat_cages(self.model, &mut y);
+        if let Some(structure) = &self.model.structure {
+            structure.rest(layout, &mut y);
+        }
         y
     }
 }

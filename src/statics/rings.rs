@@ -192,10 +192,10 @@ impl Problem<'_> {
         }
         bearing = (bearing + bearing.transpose()) / 2.0;
         let mut held = bearing;
-        for (a, race, dof) in unknowns::all() {
+        for (a, ..) in unknowns::all() {
             forces[a] -= self.resistance(a, rings);
-            held[(a, a)] += self.support(race, dof);
         }
+        self.stiffen(&mut held);
         self.apply(rings, &mut forces, &mut held);
         let n = self.free.len();
         Ok(RingState {

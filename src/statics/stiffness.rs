@@ -15,7 +15,7 @@ use crate::scene::Scene;
 ///
 /// Entry (i, j) is the force \[N\] that has to be added along i for a metre along j, in the limit of small moves:
 /// positive on the diagonal. The balls follow the rings, each free along its radius and along z at the angle where
-/// the cage holds it. Supports and gravity are no part of it; damping and friction neither.
+/// the cage holds it. Supports, a structure below them and gravity are no part of it; damping and friction neither.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Stiffness {

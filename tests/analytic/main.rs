@@ -24,6 +24,7 @@ mod profiles;
 mod records;
 mod ring_force;
 mod start;
+mod structure;
 mod texture;
 mod tilt;
 mod tilt_random;

@@ -1,8 +1,8 @@
 //! A run in pieces is the run in one piece, bit by bit, whatever the pieces, through snapshots, and where nothing changes.
 
 use ballrace::scene::{
-    Drive, Load, Lubricant, Method, Moment, Mount, Probe, Profile, RingName, Spin, TimeFunction,
-    presets,
+    Drive, Load, Lubricant, Method, Mode, Moment, Mount, Probe, Profile, RingName, Spin, Structure,
+    TimeFunction, presets,
 };
 use ballrace::{
     Bandwidth, Column, Error, Run, Scene, Signals, Simulation, Snapshot, Start, simulate,
@@ -44,6 +44,12 @@ fn scenes() -> Vec<(&'static str, Scene)> {
     tilting.spin = Some(Spin::Free);
     let mut rolling = presets::wheel_bearing(3000.0);
     rolling.approximations.rolling = true;
+    let mut seated = deep.clone();
+    let foot = Mode::new(1200.0, 0.05, 2.0, [0.1, 1.0, 0.0]).sensor("top", [0.0, 1.0, 0.0]);
+    seated.structure = Some(Structure::new(vec![foot]));
+    for (name, probe) in [("housing", Probe::structure()), ("seat", Probe::seat())] {
+        seated.probes.insert(name.to_owned(), probe);
+    }
     let with = |method| {
         let mut scene = deep.clone();
         scene.solver.method = method;
@@ -57,6 +63,7 @@ fn scenes() -> Vec<(&'static str, Scene)> {
         ("without friction", frictionless),
         ("oil, speed rising", ramp),
         ("tilting, spinning", tilting),
+        ("on a structure", seated),
         ("rolling", rolling),
     ]
 }

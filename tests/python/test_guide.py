@@ -185,8 +185,9 @@ def columns_of_the_guide() -> list[tuple[re.Pattern[str], str]]:
     """Return the rows of the tables of columns as patterns with units."""
     anything, word = r".+", r"[^.]+"
     parts = {
-        "probe": word, "defect": word, "column": anything, "row": r"row\d+", "race": "(outer|inner)",
-        "k": r"\d+", "origin": r"(?!outer|inner)[^.]+", "fault": "(ftf|bpfo|bpfi|2bsf)", "feature": anything,
+        "probe": word, "sensor": word, "defect": word, "column": anything, "row": r"row\d+",
+        "race": "(outer|inner)", "k": r"\d+", "origin": r"(?!outer|inner)[^.]+",
+        "fault": "(ftf|bpfo|bpfi|2bsf)", "feature": anything,
     }  # fmt: skip
     found = []
     for line in (GUIDE / "columns.md").read_text(encoding="utf-8").splitlines():
@@ -202,12 +203,16 @@ def everything() -> s.Scene:
     scene = br.bearing(
         "6205", radial_load=1500.0, lubricant="vg68", temperature_c=55.0,
         defects={"spall": br.defects.spall(on="outer_race", width_mm=1.0)}, speed_rpm=1800.0,
+        housing=br.Structure(modes=[
+            br.Mode(frequency=1200.0, damping=0.05, mass=2.0, seat=(0, 1, 0), sensors={"top": (0, 1, 0)})
+        ]),
     )  # fmt: skip
     probes: dict[str, s.Probe] = {
         "outer": s.MotionProbe(body="outer"), "loads": s.ContactsProbe(row=0), "cage": s.CageProbe(row=0),
         "energy": s.EnergyProbe(), "torque": s.TorqueProbe(), "forces": s.ForcesProbe(body="outer"),
         "oil": s.LubricationProbe(row=0), "inner": s.MotionProbe(body="inner"),
         "ball": s.MotionProbe(body="row0.ball0"), "moments": s.MomentsProbe(),
+        "housing": s.StructureProbe(), "seat": s.SeatProbe(),
     }  # fmt: skip
     free = {
         f"inner_ring.support.tilt_{axis}": s.Spring(stiffness=1e3, damping=0.05) for axis in "xy"

@@ -250,7 +250,30 @@ def scenes() -> list[s.Scene]:
         dented(full),
         tilting(full),
         textured(),
+        *seated(),
     ]
+
+
+def seated() -> list[s.Scene]:
+    """Scenes whose outer ring stands on a structure."""
+    modes = tuple(
+        s.Mode(frequency=f, damping=0.05, mass=2.0, seat=(0.1, 1.0, 0.0), sensors={"top": (0.0, 1.0, 0.2)})
+        for f in (700.0, 1200.0)
+    )  # fmt: skip
+    bearing = br.presets.deep_groove_6205()
+    matrix = ((2e-9, 1e-10, 0.0), (1e-10, 2e-9, 0.0), (0.0, 0.0, 1e-9))
+    compliances: list[s.Compliance | None] = [None, 2e-9, (1e-9, 2e-9, 3e-9), matrix]
+    made = [
+        dataclasses.replace(
+            bearing, structure=s.Structure(modes=modes, static_compliance=compliance)
+        )
+        for compliance in compliances
+    ]
+    probes: dict[str, s.Probe] = {
+        "housing": s.StructureProbe(sensors=("top",)),
+        "seat": s.SeatProbe(),
+    }
+    return [*made, dataclasses.replace(made[0], probes=probes)]
 
 
 def tilting(full: s.Scene) -> s.Scene:
@@ -384,7 +407,10 @@ def walk(value: Any, hint: Any, path: str = "") -> Iterator[tuple[str, Any, Any]
         for key, entry in value.items():
             yield from walk(entry, typing.get_args(hint)[1], f"{path}.{key}")
     elif isinstance(value, tuple):
-        of_tuple = next(h for h in members(hint) if typing.get_origin(h) is tuple)
+        tuples = [h for h in members(hint) if typing.get_origin(h) is tuple]
+        rows = value != () and isinstance(value[0], tuple)
+        of_rows = [typing.get_origin(typing.get_args(h)[0]) is tuple for h in tuples]
+        of_tuple = tuples[of_rows.index(rows) if len(tuples) > 1 else 0]
         for i, entry in enumerate(value):
             yield from walk(entry, typing.get_args(of_tuple)[0], f"{path}[{i}]")
 

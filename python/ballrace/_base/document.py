@@ -253,10 +253,13 @@ def _choose(choices: tuple[Any, ...], value: Any, path: str) -> Any:
             fits = kind.tag == tag
         elif kind is float:
             fits = isinstance(value, float | int)
+        elif kind is tuple:
+            # Of numbers, or of rows of them.
+            inner = typing.get_origin(typing.get_args(choice)[0])
+            rows = isinstance(value, list) and any(isinstance(part, list) for part in value)
+            fits = isinstance(value, list) and rows == (inner is tuple)
         else:
-            fits = isinstance(
-                value, list if kind is tuple else dict if issubclass(kind, Part) else kind
-            )
+            fits = isinstance(value, dict if issubclass(kind, Part) else kind)
         if fits:
             return choice
     raise SceneError(path, str(value), _UNKNOWN)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal
 from .._base.arguments import knows
 from .._base.numbers import finite, positive
 from ..errors import SceneError
-from ..scene import Defect, Load, Lubricant, Ring, Row, Scene, Spring, Support, Texture
+from ..scene import Defect, Load, Lubricant, Ring, Row, Scene, Spring, Structure, Support, Texture
 from .clearance import radial_clearance
 from .entry import Bearing
 from .filled import filled
@@ -60,7 +60,7 @@ def bearing(
     defects: Defect | Mapping[str, Defect] | None = None,
     lubricant: str | Lubricant | None = None,
     temperature_c: float | None = None,
-    housing: Literal["pedestal"] | Pedestal | None = "pedestal",
+    housing: Literal["pedestal"] | Pedestal | Structure | None = "pedestal",
     texture: Texture | None = None,
 ) -> Scene:
     """Return a scene of a bearing of the catalogue, ready to run.
@@ -98,12 +98,13 @@ def bearing(
         Oil by its name (:func:`ballrace.lubricants`) or its numbers; by default the contacts are dry.
     temperature_c : float, optional
         Temperature of an oil by name where it enters the contacts [°C].
-    housing : {"pedestal"}, Pedestal or None
+    housing : {"pedestal"}, Pedestal, Structure or None
         Housing of the outer ring, one mass with it. ``"pedestal"``: a cast pillow block of 0.8 kg for an outside
         diameter of 52 mm (a unit UCP205 of makers' catalogues), which grows with the cube of the diameter, an
         approximation (4.1 kg for 90 mm, where a UCP210 has some 2.7), on a mount of 1 kHz and a damping ratio of
         3 %, both chosen. In a 6205 it vibrates in phase with the shaft at 0.65 kHz, and in antiphase on the loaded
-        balls at 1.7 kHz (100 N) to 2.7 kHz (1500 N). A :class:`ballrace.Pedestal`: another housing. None: the ring
+        balls at 1.7 kHz (100 N) to 2.7 kHz (1500 N). A :class:`ballrace.Pedestal`: another housing. A
+        :class:`ballrace.Structure`: the ring stands on its seat, and its sensors are recorded. None: the ring
         alone on a stiff spring (near 5 kHz, damped at 5 %, whatever the size), as in
         :func:`ballrace.presets.deep_groove_6205`.
     texture : Texture, optional
@@ -136,10 +137,12 @@ def bearing(
     radial = positive("radial_load", radial_load, "N", zero=True)
     axial = _thrust(made, radial, axial_load)
     size = metal(made)
+    around = chosen_housing(housing, made.outside_diameter)
     return filled(
         name=made.designation,
         rows=rows,
-        outer_ring=_outer(made, chosen_housing(housing, made.outside_diameter), size),
+        outer_ring=_outer(made, around, size),
+        structure=around if isinstance(around, Structure) else None,
         # With 1 kg of shaft in a 6205, damped by its surroundings.
         inner_ring=_ring(made.bore, made, 0.0, 300.0 * size, 1.0 * size),
         loads={
@@ -203,9 +206,9 @@ def metal(made: Bearing) -> float:
     return (made.outside_diameter**2 - made.pitch_diameter**2) * made.width / _OF_6205
 
 
-def _outer(made: Bearing, housing: Pedestal | None, size: float) -> Ring:
-    """Return the outer ring in its housing, or alone."""
-    if housing is None:
+def _outer(made: Bearing, housing: Pedestal | Structure | None, size: float) -> Ring:
+    """Return the outer ring in its housing, or alone on its seat."""
+    if housing is None or isinstance(housing, Structure):
         return _ring(made.outside_diameter, made, 1e8 * size, 300.0 * size, None)
     return _ring(made.outside_diameter, made, housing.stiffness, housing.damping, housing.mass)
 

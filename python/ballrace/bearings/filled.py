@@ -21,14 +21,16 @@ from ..scene import (
     Ring,
     Row,
     Scene,
+    SeatProbe,
     SpeedDrive,
     SteepPatch,
+    StructureProbe,
 )
 from ..scene.defect import named_by_shape
 from ..scene.lubricant import chosen
 
 if TYPE_CHECKING:
-    from ..scene import Spin, Unbalance
+    from ..scene import Probe, Spin, Structure, Unbalance
 
 __all__ = ["filled", "named", "with_spin"]
 
@@ -50,6 +52,7 @@ def filled(
     rows: tuple[Row, ...],
     outer_ring: Ring,
     inner_ring: Ring,
+    structure: Structure | None = None,
     speed_rpm: float | None,
     outer_rpm: float | None,
     loads: Mapping[str, Load] | None,
@@ -80,6 +83,7 @@ def filled(
         rows=rows,
         outer_ring=outer_ring,
         inner_ring=inner_ring,
+        structure=structure,
         friction=Coulomb(coefficient=0.05, slip_speed=0.1),
         lubricant=chosen(lubricant, temperature_c),
         cage=CageRing(),
@@ -88,9 +92,22 @@ def filled(
         drive=SpeedDrive(speed_rpm * math.pi / 30.0),
         outer_speed=None if outer_rpm is None else outer_rpm * math.pi / 30.0,
         defects=named("defects", one, Defect, _DEFECTS),
-        probes={"outer": MotionProbe(body="outer"), "inner": MotionProbe(body="inner")},
+        probes=_probes(structure),
     )
     return with_spin(scene.validate())
+
+
+def _probes(structure: Structure | None) -> dict[str, Probe]:
+    """Return the probes of the motion of both rings, and of a structure with its sensors and its seat."""
+    probes: dict[str, Probe] = {
+        "outer": MotionProbe(body="outer"),
+        "inner": MotionProbe(body="inner"),
+    }
+    if structure is not None:
+        if structure.sensors:
+            probes["housing"] = StructureProbe()
+        probes["seat"] = SeatProbe()
+    return probes
 
 
 def with_spin(scene: Scene) -> Scene:

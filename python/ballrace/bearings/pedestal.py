@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from .._base.numbers import positive
 from ..errors import SceneError
+from ..scene import Structure
 
 __all__ = ["Pedestal"]
 
@@ -73,7 +74,7 @@ def pillow_block(outside_diameter: float) -> Pedestal:
     )
 
 
-def chosen_housing(housing: object, outside_diameter: float) -> Pedestal | None:
+def chosen_housing(housing: object, outside_diameter: float) -> Pedestal | Structure | None:
     """Return the housing that is asked for; None: the bare ring.
 
     Raises
@@ -83,10 +84,11 @@ def chosen_housing(housing: object, outside_diameter: float) -> Pedestal | None:
     """
     if isinstance(housing, str) and housing == "pedestal":
         return pillow_block(outside_diameter)
-    if housing is None or isinstance(housing, Pedestal):
+    if housing is None or isinstance(housing, Pedestal | Structure):
         return housing
     allowed = (
-        '"pedestal", None (the bare ring) or a br.Pedestal(mass=…, stiffness=…, damping=…); what lies between '
-        "ring and sensor, as in br.measuring.Housing, belongs to br.measuring.Chain"
+        '"pedestal", None (the bare ring), a br.Pedestal(mass=…, stiffness=…, damping=…) or a '
+        "br.Structure(modes=[br.Mode(…), …]); what lies between ring and sensor, as in br.measuring.Housing, "
+        "belongs to br.measuring.Chain"
     )
     raise SceneError("housing", repr(housing), allowed)

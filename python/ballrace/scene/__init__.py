@@ -47,11 +47,14 @@ from .probe import (
     MomentsProbe,
     MotionProbe,
     Probe,
+    SeatProbe,
     SlicesProbe,
+    StructureProbe,
     TorqueProbe,
 )
 from .scene import Scene, Spin
 from .solver import Method, Solver
+from .structure import Compliance, Mode, Structure
 from .support import CoupledSupport, Given, Mount, Spring, Support
 from .texture import Texture
 from .time import Ramp, Sine, Spline, Table, TimeFunction
@@ -66,6 +69,7 @@ __all__ = [
     "CageProbe",
     "CageRing",
     "Cap",
+    "Compliance",
     "Component",
     "Contact",
     "ContactQuantity",
@@ -92,6 +96,7 @@ __all__ = [
     "Material",
     "Materials",
     "Method",
+    "Mode",
     "Moment",
     "MomentsProbe",
     "MotionProbe",
@@ -109,6 +114,7 @@ __all__ = [
     "RingName",
     "Row",
     "Scene",
+    "SeatProbe",
     "Sine",
     "Slices",
     "SlicesProbe",
@@ -119,6 +125,8 @@ __all__ = [
     "Spring",
     "SteepPatch",
     "Stribeck",
+    "Structure",
+    "StructureProbe",
     "Support",
     "Surface",
     "Table",

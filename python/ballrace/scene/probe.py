@@ -19,7 +19,9 @@ __all__ = [
     "MomentsProbe",
     "MotionProbe",
     "Probe",
+    "SeatProbe",
     "SlicesProbe",
+    "StructureProbe",
     "TorqueProbe",
 ]
 
@@ -173,6 +175,24 @@ class LubricationProbe(Variant, tag="lubrication"):
 
 
 @dataclass(frozen=True, kw_only=True)
+class StructureProbe(Variant, tag="structure"):
+    """Accelerations of the sensors of a structure: ``<probe>.<sensor>.ax``, ``.ay``, ``.az`` [m/s²], filtered.
+
+    Attributes
+    ----------
+    sensors : tuple of str, or None
+        Names of the sensors; None: all.
+    """
+
+    sensors: tuple[str, ...] | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class SeatProbe(Variant, tag="seat"):
+    """Force of the outer ring on the seat of a structure: ``<probe>.fx``, ``.fy``, ``.fz`` [N], filtered."""
+
+
+@dataclass(frozen=True, kw_only=True)
 class SlicesProbe(Variant, tag="slices"):
     """Forces of the single slices of chosen contacts at chosen times; a table in addition to the signals.
 
@@ -206,6 +226,8 @@ Probe = (
     | ForcesProbe
     | LubricationProbe
     | MomentsProbe
+    | SeatProbe
     | SlicesProbe
+    | StructureProbe
 )
 """A named set of signals."""

@@ -28,6 +28,7 @@ from .lubricant import Lubricant
 from .material import Materials
 from .probe import Probe
 from .solver import Solver
+from .structure import Structure
 from .time import TimeFunction
 
 __all__ = ["Scene", "Spin", "checked_scene"]
@@ -59,6 +60,8 @@ class Scene(Part):
         The rows of balls, at least one.
     outer_ring, inner_ring : Ring
         Mass of the ring, and how it is held.
+    structure : Structure or None
+        Structure on which the outer ring stands; None: its support ends on the ground.
     materials : Materials
         Materials of rings and balls.
     contact : Contact
@@ -94,7 +97,8 @@ class Scene(Part):
     probes : mapping of str to Probe
         Probes by name. Empty: the motion of the outer ring if forces can move it along x, y or z, else of the
         inner ring, in the directions that can move; where both are held or follow given motions, the loads of all
-        contacts (``row0`` and so on).
+        contacts (``row0`` and so on). With a structure also its sensors (``housing``) and the force on its seat
+        (``seat``).
     approximations : Approximations
         Approximations that make runs faster; none by default.
     solver : Solver
@@ -115,6 +119,7 @@ class Scene(Part):
     rows: tuple[Row, ...]
     outer_ring: Ring = Ring()
     inner_ring: Ring = Ring()
+    structure: Structure | None = field(default=None, metadata=LEFT_OUT)
     materials: Materials = Materials()
     contact: Contact = Contact()
     friction: Friction = "none"

@@ -174,7 +174,8 @@ impl EvaluateAxiallyFixed<'_> {
             let body = BodyId::ball(row.first + at).index();
             let there = Vector::count(simd).below(Vector::all(simd, (row.count - at) as f64));
             let balls = AxiallyFixedBalls {
-                x: Vector::load(simd, &x[body..]),
+                // What stands behind the balls, cages and modes, may lie on the axis, where nothing has a direction.
+                x: there.choose(Vector::load(simd, &x[body..]), one),
                 y: Vector::load(simd, &y[body..]),
                 vx: Vector::load(simd, &vx[body..]),
                 vy: Vector::load(simd, &vy[body..]),

@@ -116,7 +116,9 @@ impl Task for Find<'_> {
                 let View {
                     q: q_of, v, ring, ..
                 } = &views[race];
-                let q = stretch.along(q_of);
+                let mut q = stretch.along(q_of);
+                // Cages and modes may lie on the axis, where nothing has a direction.
+                q[0] = stretch.filled.choose(q[0], Lanes::all(1.0));
                 let mut texture = None;
                 if stretch.textured {
                     let turned = stretch.lanes(q_of, Dof::Theta);

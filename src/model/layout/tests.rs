@@ -71,3 +71,26 @@ fn cages_stand_behind_the_balls() {
         assert_eq!(layout.at(body, dof), at);
     }
 }
+
+/// Truth: the order of `Model::names`.
+#[test]
+fn modes_stand_behind_the_cages() {
+    let layout = Layout::of_balls(3)
+        .with_cages(1)
+        .with_modes(2)
+        .with_turns(0..0);
+    assert_eq!(layout.half(), 4 * 8 + 2 * 3);
+    assert_eq!(layout.kind(layout.cage(0)), BodyKind::Cage(0));
+    for mode in 0..2 {
+        let body = layout.mode(mode);
+        assert_eq!(
+            (body.index(), layout.kind(body)),
+            (6 + mode, BodyKind::Mode(mode))
+        );
+        assert_eq!(layout.as_ball(body), None);
+        assert!(!layout.has(body, Dof::TurnX) && layout.has(body, Dof::X));
+    }
+    for (at, (body, dof)) in layout.degrees().enumerate() {
+        assert_eq!(layout.at(body, dof), at);
+    }
+}

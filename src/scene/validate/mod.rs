@@ -9,6 +9,7 @@ mod load;
 mod lubricant;
 mod probe;
 mod race;
+mod structure;
 mod texture;
 mod tilt;
 
@@ -29,6 +30,7 @@ impl Scene {
             rows,
             outer_ring: _,
             inner_ring: _,
+            structure,
             materials,
             contact,
             friction,
@@ -69,6 +71,9 @@ impl Scene {
         contact::friction("friction", friction)?;
         if let Some(cage) = cage {
             cage::cage(self, cage)?;
+        }
+        if let Some(of) = structure {
+            structure::structure(self, of)?;
         }
         load::drive(self)?;
         lubricant::lubricants(self)?;

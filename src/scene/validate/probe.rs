@@ -30,6 +30,10 @@ pub(super) fn probe(scene: &Scene, path: &str, probe: &Probe) -> Result<()> {
         Probe::Cage { row } => scene.row_index(&format!("{path}.cage"), *row).map(|_| ()),
         Probe::Lubrication { row } => lubricated(scene, &format!("{path}.lubrication"), *row),
         Probe::Energy {} | Probe::Torque {} | Probe::Moments {} => Ok(()),
+        Probe::Structure { sensors } => {
+            of_structure(scene, &format!("{path}.structure"), sensors.as_deref())
+        }
+        Probe::Seat {} => of_structure(scene, &format!("{path}.seat"), None),
         Probe::Contacts(of) => {
             let path = format!("{path}.contacts");
             chosen(scene, &path, of.row, of.balls.as_deref())
@@ -59,6 +63,24 @@ fn of_body(scene: &Scene, path: &str, body: &str, components: &[Component]) -> R
         return Err(Error::scene(path, component.label().0, allowed));
     }
     Ok(())
+}
+
+/// There is a structure, with the sensors that are asked for.
+fn of_structure(scene: &Scene, path: &str, sensors: Option<&[String]>) -> Result<()> {
+    let Some(structure) = &scene.structure else {
+        let allowed = "a probe of a scene with a structure: give the scene a `structure`";
+        return Err(Error::scene(path, "no structure", allowed));
+    };
+    let known = structure.sensors();
+    let mut asked = sensors.unwrap_or_default().iter();
+    match asked.find(|name| !known.contains(name.as_str())) {
+        None => Ok(()),
+        Some(name) => {
+            let known: Vec<_> = known.into_iter().collect();
+            let allowed = format!("sensors of the structure: {}", known.join(", "));
+            Err(Error::scene(format!("{path}.sensors"), name, allowed))
+        }
+    }
 }
 
 fn lubricated(scene: &Scene, path: &str, row: usize) -> Result<()> {
