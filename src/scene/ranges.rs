@@ -8,9 +8,9 @@ use serde_json::{Map, Value, json};
 use super::numbers::BoundedNumber;
 use super::{
     CageLinks, CageRing, Cap, Contact, CoupledSupport, Damage, Defect, Dent, Drive, Floor,
-    Friction, GothicArch, Load, Lubricant, Material, Mount, NormalLaw, Patch, Pit, RaceProfile,
-    Ring, RingName, Row, Scene, Slices, SlicesProbe, Solver, SteepPatch, Surface, TableForce,
-    Texture, Unbalance, Waviness, WidthProfile,
+    Friction, GothicArch, Load, Lubricant, Material, Mode, Mount, NormalLaw, Patch, Pit,
+    RaceProfile, Ring, RingName, Row, Scene, Slices, SlicesProbe, Solver, SteepPatch, Surface,
+    TableForce, Texture, Unbalance, Waviness, WidthProfile,
 };
 
 /// What JSON Schema says of the numbers of each part, by the part and its field: `minimum`, `maximum`, `exclusiveMinimum`,
@@ -80,6 +80,7 @@ fn of_bearings() -> Vec<PartNumbers> {
         ("Ring", Ring::default().numbers().into()),
         ("Spring", spring.numbers(false)),
         ("CoupledSupport", support.numbers().into()),
+        ("Mode", Mode::new(X, X, X, [X; 3]).numbers()),
         ("Material", Material::default().numbers().into()),
         ("Cage", links.numbers().into()),
         ("CageRing", CageRing::default().numbers().into()),

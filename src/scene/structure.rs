@@ -2,12 +2,17 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
+use std::ops::RangeInclusive;
 
 use serde::de::value::SeqAccessDeserializer;
 use serde::de::{SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
 use super::absent;
+use super::numbers::{BoundedNumber, up_to};
+
+/// Components of shapes.
+pub(super) const SHAPES: RangeInclusive<f64> = -1e6..=1e6;
 
 /// Structure on which the outer ring stands: modes of what is around the bearing, as finite elements or a modal test give them.
 ///
@@ -100,6 +105,27 @@ impl Mode {
     pub fn sensor(mut self, name: impl Into<String>, shape: [f64; 3]) -> Self {
         self.sensors.insert(name.into(), shape);
         self
+    }
+}
+
+impl Mode {
+    /// Numbers of a mode.
+    pub(super) fn numbers(&self) -> Vec<BoundedNumber> {
+        // Named one by one, so that the compiler asks about a new field.
+        let Self {
+            frequency,
+            damping,
+            mass,
+            seat,
+            sensors: _,
+        } = self;
+        let mut found = vec![
+            BoundedNumber::new("frequency", *frequency, up_to(1e6), "Hz"),
+            BoundedNumber::new("damping", *damping, 0.0..1.0, ""),
+            BoundedNumber::new("mass", *mass, up_to(1e9), "kg"),
+        ];
+        found.extend(BoundedNumber::each("seat", seat, SHAPES, ""));
+        found
     }
 }
 

@@ -2,9 +2,10 @@
 
 use nalgebra::Matrix3;
 
-use super::check::{entry_name, up_to, within};
+use super::check::{entry_name, numbers, within};
 use crate::base::error::{Error, Result};
 use crate::base::quantities::number;
+use crate::scene::structure::SHAPES;
 use crate::scene::{Compliance, Mode, Mount, Scene, Structure};
 
 /// Most modes of a structure.
@@ -70,30 +71,12 @@ pub(super) fn structure(scene: &Scene, of: &Structure) -> Result<()> {
 }
 
 fn mode(path: &str, mode: &Mode) -> Result<()> {
-    let Mode {
-        frequency,
-        damping,
-        mass,
-        seat,
-        sensors,
-    } = mode;
-    let at = |field: &str| format!("{path}.{field}");
-    up_to(&at("frequency"), *frequency, 1e6, "Hz")?;
-    if !(0.0..1.0).contains(damping) {
-        return Err(Error::scene(at("damping"), damping, "from 0 to below 1"));
-    }
-    up_to(&at("mass"), *mass, 1e9, "kg")?;
-    shape(&at("seat"), seat)?;
-    for (name, of) in sensors {
-        entry_name(&at("sensors"), name)?;
-        shape(&at(&format!("sensors.{name}")), of)?;
-    }
-    Ok(())
-}
-
-fn shape(path: &str, shape: &[f64; 3]) -> Result<()> {
-    for (i, part) in shape.iter().enumerate() {
-        within(&format!("{path}[{i}]"), *part, -1e6..=1e6, "")?;
+    numbers(path, mode.numbers())?;
+    for (name, shape) in &mode.sensors {
+        entry_name(&format!("{path}.sensors"), name)?;
+        for (i, part) in shape.iter().enumerate() {
+            within(&format!("{path}.sensors.{name}[{i}]"), *part, SHAPES, "")?;
+        }
     }
     Ok(())
 }
