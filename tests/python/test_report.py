@@ -127,7 +127,9 @@ def test_columns_and_title(out: br.Signals, tmp_path: Path) -> None:
 
 def test_warnings_stand_on_the_page(wheel: br.Scene, tmp_path: Path) -> None:
     with pytest.warns(br.SceneWarning, match="density"):
-        heavy = br.simulate(wheel.replace({"materials.balls.density": 2.0e5}), duration=0.001)
+        heavy = br.simulate(
+            wheel.replace({"materials.balls.density": 2.0e5}), duration=0.001, rtol=1e-7
+        )
     heavy.report(tmp_path / "r.html")
     assert "Warning: " + " ".join(heavy.warnings[0].split()) in text_of(tmp_path / "r.html")
 

@@ -546,6 +546,8 @@ def test_defaults_are_those_of_the_core() -> None:
         "inner_ring": {"mass": 1.0},
         "contact": {"law": {"iso16281": {}}},
         "cage": {"stiffness": 1.0},
+        # A document that does not say it means the tolerance of before there was a band.
+        "solver": {"rtol": "band"},
         "unbalances": {"a": {"ring": "inner", "moment": 1e-3}},
         "defects": {"a": outer},
         "probes": {

@@ -70,7 +70,7 @@ class Strength:
     acceleration : float
         Its root mean square over all bands, in the unit of the record, m/s² where that is known.
     impulsive : float
-        That in the strongest band where it is deep and comes from impacts; 0 where no band is both.
+        That in the strongest band where impacts stand out; 0 where they do in none.
     share : float
         Its power over that of the record.
     depth : float
@@ -204,11 +204,7 @@ def strength_at(
     ]
     power = powers[-1]
     # A resonance that the lines meet is deep, too, and strong, without impacts.
-    struck = [
-        one
-        for one, depth, of in zip(powers, depths, kurtosis, strict=True)
-        if depth >= SHALLOW and of >= _SMOOTH
-    ]
+    struck = [one for one, of in zip(powers, kurtosis, strict=True) if of >= _SMOOTH]
     return Strength(
         acceleration=math.sqrt(power),
         impulsive=math.sqrt(max(struck, default=0.0)),

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from .._document import LEFT_OUT, Part
+from .._base.document import LEFT_OUT, Part
 from .._io.files import as_path
 from ..errors import SceneError
 
