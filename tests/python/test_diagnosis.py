@@ -282,21 +282,6 @@ def test_balls_that_fall_leave_it_open() -> None:
             assert ("fall off the race" in found.why) == (not parts)
 
 
-def test_a_resonance_without_blows_adds_nothing_to_them() -> None:
-    """Weak blows at 3 kHz, and tones around 0.9 kHz at multiples of BPFO, a hundred times as strong.
-
-    Truth: what is impulsive is 0.05 m/s², too weak to be damage.
-    """
-    x = blows(ORDERS.bpfo)
-    t = np.arange(x.size) / FS
-    tones = np.sum([np.cos(2 * np.pi * k * ORDERS.bpfo * SHAFT * t) for k in (8, 9)], axis=0)
-    found = judged(0.05 * noise(x / x.std(), 0.05) + 5.0 * tones, unit="m/s^2")
-    strength = found.evidence["outer_race"].strength
-    assert strength.acceleration > 1.0
-    assert strength.impulsive < 0.06
-    assert found.verdict == "undecided"
-
-
 def test_waves_without_blows_leave_it_open() -> None:
     """Tones at multiples of BPFO, as of balls that pass through the load zone of a smooth bearing, in noise.
 

@@ -56,15 +56,20 @@ has 0.35 and 0.30.
 _CLEARED = 0.2
 """Likelihood ratio below which a part is not cleared."""
 
-_TINY: tuple[tuple[float, float], ...] = ((1.0, 1e-2), (4.0, 2e-3), (math.inf, 8e-4))
-"""Strength a·D²/v below which deep, impulsive lines may be those of a healthy bearing [m²/s], below a multiple of
-gravity with which the turn of the cage presses balls to the outer race.
+_TINY = 1e-3
+"""Strength a·D²/v below which deep, impulsive lines may be those of a healthy bearing [m²/s].
+
+Of some 500 healthy records of 24 simulated bearings eight have more than 3e-4, one more than 1e-3; a tenth of
+simulated damaged races, most of them narrow, have less. That of a spalled 6205 of Case Western Reserve University
+is 2.3e-3 and more.
+"""
+
+_TINY_LOOSE: tuple[tuple[float, float], ...] = ((1.0, 1e-2), (4.0, 2e-3))
+"""The same below a multiple of gravity with which the turn of the cage presses balls to the outer race.
 
 Below 1 unloaded balls fall off the race at the top and strike it one by one, at the rate of an outer race: 38 of
 126 healthy records of ten simulated bearings from 625 to 6310 have lines of 3e-4 and more, up to 6.4e-3. Up to 4
-they come loose in vibration (3 of 87, up to 1.5e-3). Above, of some 500 healthy records of 24 bearings eight have
-more than 3e-4, one more than 8e-4; a tenth of simulated damaged races, most of them narrow, have less. That of a
-spalled 6205 of Case Western Reserve University is 2.3e-3 and more.
+they come loose in vibration (3 of 87, up to 1.5e-3).
 """
 
 _FAINT = 0.14
@@ -104,8 +109,8 @@ class Size:
 
     def is_tiny(self, one: Evidence) -> bool:
         """Return whether a part's lines are so weak that a healthy bearing may have impacts as strong."""
-        tiny = next(limit for below, limit in _TINY if self.pressed < below)
-        return at_any_size(one.strength.impulsive, self.diameter, self.rate) < tiny
+        tiny = next((limit for below, limit in _TINY_LOOSE if self.pressed < below), _TINY)
+        return at_any_size(one.strength.acceleration, self.diameter, self.rate) < tiny
 
 
 @dataclass(frozen=True, kw_only=True)
