@@ -12,8 +12,8 @@ use super::{
 ///
 /// Published: two rows of 13 balls of 11.9 mm, inner ring at 30 Hz, radial load 7 kN on the inner ring,
 /// axial 0, +3 or −3 kN; outer-ring defect at −90° with R_f = 0.3 mm, w = L_f = 1.5 mm.
-/// The rest is not published; these values are identified and meet the published results at once
-/// (`ballrace paper` shows them side by side).
+/// The rest is not published; these values are identified and meet the published results at once, but for the unsteady
+/// signal at −3 kN, for which they are damped too heavily (`damping="light"` of the Python package).
 pub fn wheel_bearing(axial_load: f64) -> Scene {
     // 15/32 in, the catalogue size behind the paper's 11.9 mm.
     let ball_diameter = 11.906e-3;
