@@ -10,6 +10,7 @@ from .simulations import INSTANT, SIGNALS, dynamic
 from .study import MEASURED_RADIAL_LOAD
 
 if TYPE_CHECKING:
+    from .case import Case
     from .comparison import Comparison
     from .study import Paper
 
@@ -67,11 +68,11 @@ def _said(paper: Paper) -> list[list[list[str]]]:
     over = "line over its surroundings, +3 kN"
     begun = ["first 0.02 s", "initial conditions, no physical meaning", "the same start"]
     forces = [
-        ["largest normal force on the outer race", text, f"{case.snapshot.balls.outer_load.max():.0f} N"]
+        ["largest normal force on the faulted race", text, f"{_largest(case):.0f} N"]
         for text, case in (
             ("drawn, no number", none),
             ("considerable influence of the axial load", towards),
-            ("considerably smaller at the defect", away),
+            ("considerably smaller", away),
         )
     ]  # fmt: skip
     on_defect = f"{none.snapshot.zone.force:.0f} to {towards.snapshot.zone.force:.0f} N"
@@ -91,6 +92,12 @@ def _said(paper: Paper) -> list[list[list[str]]]:
         [*_lines(paper, "10"), forces[2]],
         [*_lines(paper, "11"), begun],
     ]
+
+
+def _largest(case: Case) -> float:
+    """Return the largest normal force on the outer race of the faulted row [N]."""
+    balls = case.snapshot.balls
+    return float(balls.outer_load[balls.row == 0].max())
 
 
 def _lines(paper: Paper, figure: str) -> list[list[str]]:
