@@ -83,10 +83,7 @@ pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
             });
         }
     }
-    for (i, row) in rows.iter().enumerate() {
-        let cage = row.cage.as_ref();
-        bodies.extend(cage.map(|cage| cage.body(i, &scene.rows[i])));
-    }
+    bodies.extend(cages(scene, &rows));
     classify(&mut rows);
     let structure = scene.structure.as_ref();
     let structure = structure.map(|of| StructureModel::new(of, &bodies[0]));
@@ -118,6 +115,12 @@ pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
     check_pits_at_once(&model)?;
     fit_nodes(&mut model);
     Ok(model)
+}
+
+/// The cages that are rings.
+fn cages(scene: &Scene, rows: &[RowModel]) -> impl Iterator<Item = Body> {
+    let each = rows.iter().zip(&scene.rows).enumerate();
+    each.filter_map(|(i, (row, of))| Some(row.cage.as_ref()?.body(i, of)))
 }
 
 /// Place on the pitch circle in the middle of a cage's pocket, where the cage rests.

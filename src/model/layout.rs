@@ -4,7 +4,9 @@
 //! stand behind all bodies in each half, and behind them the rotations of freely spinning balls about x and y. No other file computes with the number of a body's directions or with the bodies before
 //! the balls: another direction is a change of this file.
 
-use std::ops::{Index, IndexMut, Range};
+mod index;
+
+use std::ops::Range;
 
 use super::{DOFS, Dof};
 use crate::contact::Motion;
@@ -412,40 +414,6 @@ impl Layout {
 /// The bit of a ring's tilt, in the order of their places.
 const fn tilt_bit(body: BodyId, tilt: Dof) -> usize {
     2 * body.0 + (tilt.index() - Dof::TiltX.index())
-}
-
-/// Arrays with one entry a race are indexed by the race.
-impl<T> Index<Race> for [T; 2] {
-    type Output = T;
-
-    #[inline]
-    fn index(&self, race: Race) -> &T {
-        &self[race as usize]
-    }
-}
-
-impl<T> IndexMut<Race> for [T; 2] {
-    #[inline]
-    fn index_mut(&mut self, race: Race) -> &mut T {
-        &mut self[race as usize]
-    }
-}
-
-/// Vectors with one entry a body are indexed by the body.
-impl<T> Index<BodyId> for Vec<T> {
-    type Output = T;
-
-    #[inline]
-    fn index(&self, body: BodyId) -> &T {
-        &self[body.0]
-    }
-}
-
-impl<T> IndexMut<BodyId> for Vec<T> {
-    #[inline]
-    fn index_mut(&mut self, body: BodyId) -> &mut T {
-        &mut self[body.0]
-    }
 }
 
 #[cfg(test)]

@@ -22,6 +22,7 @@ pub(super) const SHAPES: RangeInclusive<f64> = -1e6..=1e6;
 /// ```
 /// use ballrace::scene::{Mode, Structure, presets};
 /// let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
+/// scene.probes.clear();
 /// let foot = Mode::new(1200.0, 0.05, 2.0, [0.0, 1.0, 0.0]).sensor("top", [0.0, 1.0, 0.0]);
 /// scene.structure = Some(Structure::new(vec![foot]));
 /// assert!(scene.recorded().contains_key("housing") && scene.recorded().contains_key("seat"));

@@ -16,7 +16,7 @@ const MOST_ENDS: usize = 16;
 
 /// A place that was looked at, and the penetration there \[m\].
 #[derive(Clone, Copy)]
-struct Look {
+struct Crossing {
     u: f64,
     value: f64,
 }
@@ -38,7 +38,7 @@ impl OneContact<'_> {
             self.node(line, u, 0.0)
                 .map(|node| self.facing.penetrations(&node))
         };
-        let mut keep = |of: &dyn Fn(f64) -> f64, a: Look, b: Look| {
+        let mut keep = |of: &dyn Fn(f64) -> f64, a: Crossing, b: Crossing| {
             if (a.value > 0.0) != (b.value > 0.0) && count < MOST_ENDS {
                 ends[count] = root(of, a, b);
                 count += 1;
@@ -53,12 +53,12 @@ impl OneContact<'_> {
                 let first = last.as_ref().filter(|a| a.count == shared);
                 for i in 0..shared {
                     let penetration = |u: f64| at(u).map_or(0.0, |found| found.values[i]);
-                    let [b, c] = [(u - step, b), (u, c)].map(|(u, found)| Look {
+                    let [b, c] = [(u - step, b), (u, c)].map(|(u, found)| Crossing {
                         u,
                         value: found.values[i],
                     });
                     keep(&penetration, b, c);
-                    let Some(a) = first.map(|a| Look {
+                    let Some(a) = first.map(|a| Crossing {
                         u: u - 2.0 * step,
                         value: a.values[i],
                     }) else {
@@ -68,7 +68,7 @@ impl OneContact<'_> {
                     if let Some(turn) = turning_point([a, b, c].map(|look| look.value)) {
                         let u = b.u + step * turn;
                         let value = penetration(u);
-                        let there = Look { u, value };
+                        let there = Crossing { u, value };
                         keep(&penetration, a, there);
                         keep(&penetration, there, c);
                     }
@@ -91,7 +91,7 @@ fn turning_point([a, b, c]: [f64; 3]) -> Option<f64> {
 }
 
 /// A zero between two places of opposite sign, by the Illinois variant of regula falsi.
-fn root(f: impl Fn(f64) -> f64, mut a: Look, mut b: Look) -> f64 {
+fn root(f: impl Fn(f64) -> f64, mut a: Crossing, mut b: Crossing) -> f64 {
     for _ in 0..12 {
         let u = (a.u * b.value - b.u * a.value) / (b.value - a.value);
         let value = f(u);
@@ -103,7 +103,7 @@ fn root(f: impl Fn(f64) -> f64, mut a: Look, mut b: Look) -> f64 {
         } else {
             a = b;
         }
-        b = Look { u, value };
+        b = Crossing { u, value };
     }
     b.u
 }

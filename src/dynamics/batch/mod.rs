@@ -12,6 +12,7 @@
 mod axially_fixed;
 mod eight;
 mod find;
+mod single;
 mod view;
 
 use std::array::from_fn;
@@ -29,7 +30,8 @@ use crate::simd::{LANES, Lanes};
 use axially_fixed::{AxiallyFixedRow, AxiallyFixedSums, EvaluateAxiallyFixed};
 use eight::{EvaluateEight, Group, ToScene, leave, mixes};
 pub(crate) use eight::{SideConstants, Touching};
-use find::{Find, Neighbours, Single};
+use find::{Find, Neighbours};
+use single::Single;
 pub(crate) use view::{RingView, View};
 
 /// Force on each ring and moment about the origin of its frame, both in that frame \[N\], \[N m\].
