@@ -63,8 +63,8 @@ SETS = {
 Limits were chosen on 44 to 46; three healthy records of 47 that were accused showed that small bearings need a
 library that holds some. 48 was judged once, after that; 49 and 50 once: nine healthy records of 50 that were
 accused, eight of one small and slow bearing, showed that unloaded balls fall; 51 once, after that: seven, with
-a·D²/v of up to 1e-3, raised the limit to 1e-3. 52 was judged once, after that (none of 216 accused), and 53: six, of
-the three bearings below 18 mm, raised the limits of these. 54 was judged once, after that.
+a·D²/v of up to 1e-3, raised the limit to 1e-3. 52 was judged once, after that (none of 216 accused), and 53: six,
+of three bearings below 18 mm, raised the limits of these. 54 was judged once, after that.
 """
 
 SURFACES = ("smooth", "waved", "textured")
