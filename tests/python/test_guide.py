@@ -203,9 +203,9 @@ def everything() -> s.Scene:
     scene = br.bearing(
         "6205", radial_load=1500.0, lubricant="vg68", temperature_c=55.0,
         defects={"spall": br.defects.spall(on="outer_race", width_mm=1.0)}, speed_rpm=1800.0,
-        housing=br.Structure(modes=[
-            br.Mode(frequency=1200.0, damping=0.05, mass=2.0, seat=(0, 1, 0), sensors={"top": (0, 1, 0)})
-        ]),
+        housing=br.Structure(modes=(
+            br.Mode(frequency=1200.0, damping=0.05, mass=2.0, seat=(0, 1, 0), sensors={"top": (0, 1, 0)}),
+        )),
     )  # fmt: skip
     probes: dict[str, s.Probe] = {
         "outer": s.MotionProbe(body="outer"), "loads": s.ContactsProbe(row=0), "cage": s.CageProbe(row=0),

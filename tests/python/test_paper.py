@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import json
 import math
 import re
@@ -42,10 +43,10 @@ STARTS = 8
 
 @pytest.fixture(scope="module")
 def starts() -> list[paper.Paper]:
-    return [
-        paper.run(lambda load, k=k: paper.turned(paper.bearing(load), 1e-9 * k))
-        for k in range(STARTS)
-    ]
+    def start(k: int, load: float) -> br.Scene:
+        return paper.turned(paper.bearing(load), 1e-9 * k)
+
+    return [paper.run(functools.partial(start, k)) for k in range(STARTS)]
 
 
 def test_orbit() -> None:

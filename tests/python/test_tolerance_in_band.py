@@ -64,7 +64,7 @@ def test_documents_say_it_or_mean_the_exact_one(scene: br.Scene) -> None:
 
 def test_it_is_right_in_the_band(scene: br.Scene) -> None:
     """Truth: a run of the same millisecond at 1e-10 with half the cap; evaluations are fewer."""
-    start = br.simulate(scene, duration=0.01).end_state
+    start = br.simulate(scene, duration=0.01)
     limit = br.simulate(scene, **SHORT, rtol=1e-7).provenance.step_limit
     fine = scene.replace({"solver.max_step": 0.5 * limit, "solver.rtol": 1e-10})
     truth = br.simulate(fine, duration=1e-3, start=start)["outer.ay"]
