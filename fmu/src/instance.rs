@@ -302,12 +302,13 @@ impl Instance {
                 let rates = self.rates()?.to_vec();
                 let found =
                     inspect::sensor_acceleration(self.simulation()?.model(), &rates, &sensor);
-                values.push(found?[axis]);
+                values.push(found.map_err(|e| e.to_string())?[axis]);
             }
             Source::Seat(axis) => {
                 let axis = *axis;
                 let simulation = self.simulation()?;
-                values.push(inspect::seat_force(simulation.model(), simulation.state())?[axis]);
+                let force = inspect::seat_force(simulation.model(), simulation.state());
+                values.push(force.map_err(|e| e.to_string())?[axis]);
             }
             Source::Loads(race, balls) => {
                 let (race, balls) = (*race, balls.clone());

@@ -253,8 +253,11 @@ impl ProbeReader {
     /// Whether the probe's columns are signals, which are filtered, rather than readings of a state.
     pub fn is_signal(&self) -> bool {
         match self {
-            Self::Motion { .. } | Self::Cage { .. } | Self::Torque => true,
-            Self::Structure { .. } | Self::Seat => true,
+            Self::Motion { .. }
+            | Self::Cage { .. }
+            | Self::Torque
+            | Self::Structure { .. }
+            | Self::Seat => true,
             Self::Contacts { .. }
             | Self::Energy
             | Self::Moments

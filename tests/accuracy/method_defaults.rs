@@ -261,7 +261,7 @@ fn judge(cases: impl Iterator<Item = Case>) -> usize {
 fn no_method_misleads_with_its_defaults() {
     let fast = presets::deep_groove_6205(500.0, 0.0, 12_000.0);
     let slow = presets::deep_groove_6205(500.0, 0.0, 1800.0);
-    let cases = [
+    let cases = vec![
         Case::resting("wheel 0 N", presets::wheel_bearing(0.0)),
         Case::resting("wheel 3000 N", soon_over_the_spall(3000.0)),
         Case::resting("wheel −3000 N", soon_over_the_spall(-3000.0)),

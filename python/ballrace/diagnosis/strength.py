@@ -69,6 +69,8 @@ class Strength:
     ----------
     acceleration : float
         Its root mean square over all bands, in the unit of the record, m/s² where that is known.
+    impulsive : float
+        That in the strongest band where impacts stand out; 0 where they do in none.
     share : float
         Its power over that of the record.
     depth : float
@@ -85,6 +87,7 @@ class Strength:
     """
 
     acceleration: float
+    impulsive: float
     share: float
     depth: float
     overtones: float
@@ -192,15 +195,22 @@ def strength_at(
     """Return how strong a signal is at a rate [Hz], but for lines that are another part's [Hz]."""
     found = [envelopes.depths(band, rate, taken) for band in range(len(envelopes.bands))]
     depths, overtones = zip(*found, strict=True)
+    kurtosis = [envelopes.kurtosis(band) for band in range(len(found))]
     # The variance of a squared envelope over its squared mean; that of noise is 1, and of a tone 0.
-    varying = [max(envelopes.kurtosis(band) / 1.5 - 1.0, 0.3) for band in range(len(found))]
-    power = 0.5 * float(envelopes.rows[-1].mean()) * min(depths[-1], 1.0)
+    varying = [max(one / 1.5 - 1.0, 0.3) for one in kurtosis]
+    powers = [
+        0.5 * float(row.mean()) * min(depth, 1.0)
+        for row, depth in zip(envelopes.rows, depths, strict=True)
+    ]
+    power = powers[-1]
+    struck = [one for one, of in zip(powers, kurtosis, strict=True) if of >= _SMOOTH]
     return Strength(
         acceleration=math.sqrt(power),
+        impulsive=math.sqrt(max(struck, default=0.0)),
         share=min(power / envelopes.variance, 1.0),
         depth=max(depths),
         overtones=max(overtones),
         explained=max(depth**2 / of for depth, of in zip(depths, varying, strict=True)),
         band=envelopes.bands[int(np.argmax(depths))],
-        kurtosis=max(map(envelopes.kurtosis, range(len(envelopes.bands)))),
+        kurtosis=max(kurtosis),
     )
