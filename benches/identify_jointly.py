@@ -44,12 +44,12 @@ if TYPE_CHECKING:
 RTOL = 1e-4
 STARTS = 8
 NO_BEARING = 30.0
-"""What costs a candidate whose shifts at rest cannot be met, more than any that can."""
+"""Penalty of a candidate whose shifts at rest cannot be met, more than that of any other."""
 
 
 @dataclass(frozen=True)
 class Range:
-    """Where an unknown may lie; positive ones are searched by their logarithms."""
+    """Range of an unknown; positive ones are searched by their logarithms."""
 
     low: float
     high: float

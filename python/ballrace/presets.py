@@ -30,7 +30,7 @@ Arrangement = Literal["back_to_back", "face_to_face"]
 
 
 Damping = Literal["heavy", "light"]
-"""How much the wheel bearing is damped where the paper gives nothing."""
+"""Damping of the wheel bearing, of which the paper gives nothing."""
 
 
 def wheel_bearing(

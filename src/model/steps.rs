@@ -22,7 +22,8 @@ pub(crate) struct Fineness {
 
 impl Fineness {
     /// What accelerations filtered to [`BAND`] need: nine scenes err by at most 0.70 % in the median of 1 ms from ten developed
-    /// states, and no statistic of 0.3 s is biased.
+    /// states, and no statistic of 0.3 s from eight starts is apart; 38 of 42 spalled bearings by chance err by at most 1 %, the
+    /// others by up to 2.6 %.
     const IN_BAND: Self = Self {
         rtol: 1e-4,
         cap_factor: 1.4,

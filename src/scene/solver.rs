@@ -86,13 +86,13 @@ impl<'de> Deserialize<'de> for RelativeTolerance {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         #[derive(Deserialize)]
         #[serde(untagged)]
-        enum Written {
+        enum NumberOrName {
             Number(f64),
             Name(String),
         }
-        match Written::deserialize(from) {
-            Ok(Written::Number(rtol)) => Ok(Self::Of(rtol)),
-            Ok(Written::Name(name)) if name == "band" => Ok(Self::Band),
+        match NumberOrName::deserialize(from) {
+            Ok(NumberOrName::Number(rtol)) => Ok(Self::Of(rtol)),
+            Ok(NumberOrName::Name(name)) if name == "band" => Ok(Self::Band),
             _ => Err(de::Error::custom(
                 "a number from 1e-12 to 1e-1, or \"band\"",
             )),
@@ -132,22 +132,7 @@ impl Solver {
             ..Self::default()
         }
     }
-}
 
-impl Default for Solver {
-    fn default() -> Self {
-        Self {
-            method: Method::default(),
-            rtol: RelativeTolerance::default(),
-            first_step: None,
-            max_step: None,
-            frequency_cap: true,
-            reduce: true,
-        }
-    }
-}
-
-impl Solver {
     /// Numbers of the solver.
     pub(super) fn numbers(&self) -> [BoundedNumber; 3] {
         // Named one by one, so that the compiler asks about a new field.
@@ -164,5 +149,18 @@ impl Solver {
             BoundedNumber::new("first_step", first_step, POSITIVE, "s"),
             BoundedNumber::new("max_step", max_step, POSITIVE, "s"),
         ]
+    }
+}
+
+impl Default for Solver {
+    fn default() -> Self {
+        Self {
+            method: Method::default(),
+            rtol: RelativeTolerance::default(),
+            first_step: None,
+            max_step: None,
+            frequency_cap: true,
+            reduce: true,
+        }
     }
 }

@@ -282,6 +282,23 @@ def test_balls_that_fall_leave_it_open() -> None:
             assert ("fall off the race" in found.why) == (not parts)
 
 
+def test_a_resonance_without_blows_needs_to_be_loud() -> None:
+    """Weak blows at 3 kHz, and tones around 0.9 kHz at multiples of BPFO, 100 and 10 000 times as strong.
+
+    Truth: blows of 0.05 m/s² are tiny; tones are damage from ten times the limit on, 24 m/s² (`_RINGING`).
+    """
+    x = blows(ORDERS.bpfo)
+    t = np.arange(x.size) / FS
+    tones = np.sum([np.cos(2 * np.pi * k * ORDERS.bpfo * SHAFT * t) for k in (8, 9)], axis=0)
+    x = 0.05 * noise(x / x.std(), 0.05)
+    for size, parts in ((5.0, ()), (500.0, ("outer_race",))):
+        found = judged(x + size * tones, unit="m/s^2")
+        strength = found.evidence["outer_race"].strength
+        assert strength.acceleration > 0.5 * size
+        assert strength.impulsive < 0.06
+        assert found.parts == parts
+
+
 def test_waves_without_blows_leave_it_open() -> None:
     """Tones at multiples of BPFO, as of balls that pass through the load zone of a smooth bearing, in noise.
 

@@ -1,1 +1,1 @@
-"""What every module may use: it knows no bearing."""
+"""Base of all modules: arguments, arrays, documents, text, units; it knows no bearing."""

@@ -65,7 +65,7 @@ is 2.3e-3 and more.
 """
 
 _TINY_LOOSE: tuple[tuple[float, float], ...] = ((1.0, 1e-2), (4.0, 2e-3))
-"""The same below a multiple of gravity with which the turn of the cage presses balls to the outer race.
+"""Limits of a·D²/v below multiples of gravity with which the turn of the cage presses balls to the outer race.
 
 Below 1 unloaded balls fall off the race at the top and strike it one by one, at the rate of an outer race: 38 of
 126 healthy records of ten simulated bearings from 625 to 6310 have lines of 3e-4 and more, up to 6.4e-3. Up to 4
@@ -124,11 +124,8 @@ class Size:
         """Return whether a part's lines are so weak that a healthy bearing may have impacts as strong."""
         tiny = next((limit for below, limit in _TINY_LOOSE if self.pressed < below), _TINY)
         tiny *= _MINIATURE if self.diameter < _SMALL else 1.0
-        struck, all_ = (
-            at_any_size(acceleration, self.diameter, self.rate)
-            for acceleration in (one.strength.impulsive, one.strength.acceleration)
-        )
-        return struck < tiny and all_ < _RINGING * tiny
+        largest = max(one.strength.impulsive, one.strength.acceleration / _RINGING)
+        return at_any_size(largest, self.diameter, self.rate) < tiny
 
 
 @dataclass(frozen=True, kw_only=True)

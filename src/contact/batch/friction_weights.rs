@@ -27,7 +27,7 @@ impl Pair {
         Slip::along::<FMA>(&self.law, sigma, &whole.section, moves)
     }
 
-    /// The same of balls before a ring that may tilt, with angular velocities along n_e and t_e \[rad/s\].
+    /// Slip of balls before a ring that may tilt, with angular velocities along n_e and t_e \[rad/s\].
     #[inline(always)]
     pub(in crate::contact) fn slip_tilted<const FMA: bool>(
         &self,

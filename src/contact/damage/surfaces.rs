@@ -364,7 +364,7 @@ impl Facing<'_> {
         }
     }
 
-    /// The same against a fault circle of the ring.
+    /// Surface of the ring where a fault circle of the ball meets one of the ring.
     fn circle_on_circle<D: Depth>(
         &self,
         surface: &RingSurface<D>,

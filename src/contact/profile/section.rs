@@ -19,7 +19,7 @@ impl<T> Inclination<T> {
         (self.cos, self.sin)
     }
 
-    /// The same in another kind of number.
+    /// Inclination in another kind of number.
     #[inline(always)]
     pub fn map<U>(self, of: impl Fn(T) -> U) -> Inclination<U> {
         Inclination {
