@@ -2,7 +2,7 @@
 //!
 //! Everything that evaluates contacts drives it: `scalar` one contact at a time, with everything that may cut it;
 //! `batch` eight whole contacts side by side; `held` holds contacts at one place for any velocities; `stiffness`
-//! differentiates them at rest; `closed_form` fits whole contacts. It is generic over the [`Number`] it computes with.
+//! differentiates them at rest. It is generic over the [`Number`] it computes with.
 
 // Everything here must be compiled for the instructions of its caller.
 #![allow(clippy::inline_always)]
@@ -143,27 +143,6 @@ impl<T: Number, R: Receiver<T>, const FMA: bool, const SYMMETRIC: bool> ForLaw
                 }
             }
         }
-    }
-}
-
-/// Hertz's force as a whole, K δ^{3/2}, where every element approaches alike and nothing rubs: along the common normal,
-/// in place of all elements.
-#[inline(always)]
-pub(super) fn as_one<T: Number>(contact: &Whole<T>, stiffness: f64) -> Element<T> {
-    let pressed = contact.section.approach.or_zero();
-    let (zero, one) = (pressed.same(0.0), pressed.same(1.0));
-    Element {
-        sin: zero,
-        slope: Inclination {
-            cos: one,
-            sin: zero,
-        },
-        groove: zero,
-        depth: pressed,
-        length: one,
-        load: pressed * pressed.sqrt() * stiffness,
-        share: contact.section.normal.share(),
-        friction_weight: one,
     }
 }
 

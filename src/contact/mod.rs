@@ -9,8 +9,7 @@
 //! * `scalar` — [`Pair::evaluate`]: one contact with defects and ends of its zone, every single force to a [`Sink`];
 //! * `batch` — eight whole contacts at once;
 //! * `held` — contacts held at one place for any velocities, with slopes by these: what implicit methods need;
-//! * `stiffness` — force at rest and its derivative by the place: what statics need;
-//! * `closed_form` — whole contacts as one formula, where there is one.
+//! * `stiffness` — force at rest and its derivative by the place: what statics need.
 //!
 //! What is public beside the laws is hidden from the documentation: it is for the crate's own tests, and changes without notice.
 //!
@@ -18,7 +17,6 @@
 //! contact loses to holes smaller than it, and what makes these forces conservative.
 
 mod batch;
-mod closed_form;
 mod damage;
 mod dual;
 mod frames;
@@ -36,14 +34,11 @@ mod stiffness;
 use nalgebra::{Vector2, Vector3};
 
 pub(crate) use batch::{
-    Across, BatchForces, Constants, EightContacts, FrictionWeights, Places, RingLanes, Summing,
+    Across, BatchForces, Constants, EightContacts, FrictionWeights, Places, RingLanes,
 };
-pub(crate) use closed_form::{AxiallyFixedBalls, AxiallyFixedRace, InPlane, hertz_stiffness};
 #[doc(hidden)]
 pub use damage::SurfaceDefect;
-pub(crate) use damage::{
-    AngularReach, Bed, ContactDirection, MOST_AT_ONCE, PittedContact, met_at_once,
-};
+pub(crate) use damage::{Bed, ContactDirection, MOST_AT_ONCE, PittedContact, met_at_once};
 #[doc(hidden)]
 pub use frames::Motion;
 pub(crate) use frames::{TiltedRing, attitude_accelerations, attitude_rates, centrifugal};

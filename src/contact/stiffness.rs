@@ -10,13 +10,14 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::closed_form;
 use super::dual::Dual;
 use super::kernel::{self, Element, Receiver, Whole};
 use super::profile::{Inclination, SHALLOW, Section, Zone};
 use super::{
-    BallSide, ContactDirection, ContactForce, Motion, Pair, PointForce, Rules, Sink, V2, ZoneSlices,
+    BallSide, ContactDirection, ContactForce, Elastic, Motion, Pair, PointForce, Rules, Sink, V2,
+    ZoneSlices,
 };
+use crate::simd::Number;
 use crate::tilt::Frame;
 
 /// Elastic force on the ball along x, y, z \[N\], and the stiffness −∂force/∂place of the ball against the ring
@@ -222,8 +223,8 @@ impl Pair {
             force: [of(0.0); 2],
         };
         let (law, slices) = (&self.law, &self.slices);
-        match closed_form::elastic_stiffness(self) {
-            Some(stiffness) => sums.add(&kernel::as_one(&contact, stiffness)),
+        match self.stiffness_as_one() {
+            Some(stiffness) => sums.add(&as_one(&contact, stiffness)),
             None => {
                 kernel::elements::<_, false, false>(law, slices, None, &contact, &mut sums);
             }
@@ -231,6 +232,16 @@ impl Pair {
         Meridional {
             force: sums.force.map(|force| force.value),
             slope: sums.force.map(|force| force.slopes),
+        }
+    }
+
+    /// K of Hertz's law \[N/m^{3/2}\] where the zone's nodes follow it: their sum is K δ^{3/2} along the common normal.
+    fn stiffness_as_one(&self) -> Option<f64> {
+        match (&self.slices, &self.law.elastic) {
+            (ZoneSlices::Fitted(_), Elastic::Hertz(law)) => {
+                Some(4.0 / 3.0 * law.slope * (2.0 / law.curvature).sqrt())
+            }
+            _ => None,
         }
     }
 
@@ -359,6 +370,27 @@ impl Sink for ElasticForce {
 
     fn point(&mut self, force: &PointForce) {
         self.0 += Vector3::new(force.plane.x, force.plane.y, force.axial);
+    }
+}
+
+/// Hertz's force as a whole, K δ^{3/2}, where every element approaches alike and nothing rubs: along the common normal,
+/// in place of all elements.
+#[inline(always)]
+fn as_one<T: Number>(contact: &Whole<T>, stiffness: f64) -> Element<T> {
+    let pressed = contact.section.approach.or_zero();
+    let (zero, one) = (pressed.same(0.0), pressed.same(1.0));
+    Element {
+        sin: zero,
+        slope: Inclination {
+            cos: one,
+            sin: zero,
+        },
+        groove: zero,
+        depth: pressed,
+        length: one,
+        load: pressed * pressed.sqrt() * stiffness,
+        share: contact.section.normal.share(),
+        friction_weight: one,
     }
 }
 

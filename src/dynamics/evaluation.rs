@@ -57,9 +57,6 @@ impl Dynamics<'_> {
             };
             return instead.to_owned();
         }
-        if self.contacts.is_closed(row, race) {
-            return "closed form".to_owned();
-        }
         let pair = &self.model.rows[row].pairs[race];
         let law = pair.law.elastic.name();
         let count = pair.slices.count();

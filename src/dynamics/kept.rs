@@ -1,11 +1,9 @@
 //! The integrated states of a reduced run: from their vector to all bodies, and from forces to their rates.
 
-use super::planar::{Planar, Rates};
 use super::rolling::RollingRows;
 use crate::forces::{State, Table};
-use crate::model::{Dof, Model, Race};
+use crate::model::{Dof, Race};
 use crate::reduction::Reduction;
-use crate::simd::InstructionSet;
 
 /// Directions that a reduction keeps, and how they are evaluated.
 #[derive(Debug)]
@@ -14,8 +12,6 @@ pub(super) struct Kept {
     /// Places of the directions of rings whose motion or speed is given, as far as they are among the states.
     pub driven: Vec<(usize, Race, Dof)>,
     pub rolling: RollingRows,
-    /// The planar right-hand side, where the scene has one.
-    pub planar: Option<(InstructionSet, Planar)>,
 }
 
 impl Kept {
@@ -33,19 +29,6 @@ impl Kept {
             *state.v.get_mut(motion.body, motion.dof) = speed;
         }
         self.rolling.place(&self.reduction, t, state);
-    }
-
-    /// Computes the rates by the planar right-hand side, where there is one that serves; whether it did.
-    pub fn in_plane(&mut self, model: &Model, y: &[f64], dy: &mut [f64]) -> bool {
-        let Some((instructions, planar)) = &mut self.planar else {
-            return false;
-        };
-        instructions.run_wide(Rates {
-            planar,
-            model,
-            y,
-            dy,
-        })
     }
 
     /// M⁻¹ F of what is kept; the acceleration of driven directions is left to the caller.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::{Dynamics, Order};
+use super::Dynamics;
 use crate::integrate::System;
 use crate::model::{BodyId, Dof};
 use crate::reduction::Reduction;
@@ -33,8 +33,6 @@ struct Path {
     name: &'static str,
     scene: Scene,
     ways: &'static [Way],
-    /// Whether the planar right-hand side serves at the start.
-    is_loop: bool,
 }
 
 fn path(name: &'static str, scene: &Scene, change: impl FnOnce(&mut Scene)) -> Path {
@@ -44,7 +42,6 @@ fn path(name: &'static str, scene: &Scene, change: impl FnOnce(&mut Scene)) -> P
         name,
         scene,
         ways: &WAYS,
-        is_loop: false,
     }
 }
 
@@ -53,13 +50,6 @@ fn plane(name: &'static str, scene: &Scene, change: impl FnOnce(&mut Scene)) -> 
     Path {
         ways: &[Way::Pressed, Way::Off],
         ..path(name, scene, change)
-    }
-}
-
-fn in_one_loop(path: Path) -> Path {
-    Path {
-        is_loop: true,
-        ..path
     }
 }
 
@@ -113,8 +103,8 @@ fn paths() -> Vec<Path> {
             whole(s);
         }),
         plane("halves of zones by eights", &rough, |_| {}),
-        path("closed forms anywhere", &thrust, |_| {}),
-        plane("closed forms in the plane", &smooth, |s| {
+        path("without friction", &thrust, |_| {}),
+        plane("without friction in the plane", &smooth, |s| {
             let radial = s.loads.get_mut("radial").unwrap();
             radial.force = TimeFunction::Profile(sine);
         }),
@@ -122,11 +112,10 @@ fn paths() -> Vec<Path> {
             s.rows[0].inner_waviness = vec![wave];
             s.defects.insert("spall".to_owned(), spall());
         }),
-        in_one_loop(plane("one loop", &smooth, |_| {})),
-        in_one_loop(plane("one loop for two rows", &two_rows(), |_| {})),
-        in_one_loop(path("one loop off the groove's middle", &thrust, |s| {
+        plane("one row for two", &two_rows(), |_| {}),
+        path("axial places that are kept", &thrust, |s| {
             s.approximations.plane = true;
-        })),
+        }),
         path("balls that roll", &thrust, |s| {
             s.approximations.rolling = true;
         }),
@@ -174,12 +163,6 @@ fn an_evaluation_notices_lost_balls_on_every_path() {
                 .unwrap()
                 .with_instructions(instructions);
             let fine = start(&model, &Start::Equilibrium).unwrap();
-            let dynamics = Dynamics::begin(&model, Reduction::of(&model, &fine).as_ref(), &fine);
-            let by_loop = match &dynamics.order {
-                Order::Bodies => false,
-                Order::Kept(kept) => kept.planar.is_some(),
-            };
-            assert_eq!(by_loop, path.is_loop, "{}, {instructions}", path.name);
             assert_eq!(
                 first_lost(&model, &fine),
                 None,

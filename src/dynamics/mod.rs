@@ -9,7 +9,6 @@ mod kept;
 #[cfg(test)]
 mod lost;
 mod order;
-mod planar;
 mod rolling;
 #[cfg(test)]
 mod spinning_tests;
@@ -33,7 +32,6 @@ pub use contributions::{contribution_names, contributions};
 use films::Films;
 use kept::Kept;
 use order::Order;
-use planar::{Ground, Planar};
 use rolling::RollingRows;
 use tilted::SpatialWork;
 pub(crate) use tilted::turning_accelerations;
@@ -76,9 +74,7 @@ impl<'m> Dynamics<'m> {
         let kind = Guarantees {
             rows: reduction.rows.clone(),
             symmetric: reduction.plane,
-            axial_places: reduction.axial_places.clone(),
             mirrored: reduction.mirrored,
-            closed: reduction.closed,
         };
         let driven = reduction
             .degrees()
@@ -91,12 +87,11 @@ impl<'m> Dynamics<'m> {
             });
         let driven = driven.collect();
         let rolling = RollingRows::new(&reduction);
-        let keeps_axial_places = kind.axial_places.is_some();
+        let keeps_axial_places = reduction.axial_places.is_some();
         let order = Order::Kept(Box::new(Kept {
             reduction,
             driven,
             rolling,
-            planar: None,
         }));
         let mut dynamics = Self::with(model, order, kind);
         // Only scenes that stay in the plane are reduced: what tilts or spins freely in them rests.
@@ -113,22 +108,7 @@ impl<'m> Dynamics<'m> {
         let kept = dynamics.compress(start);
         dynamics.expand(0.0, &kept, &mut places);
         dynamics.state.read(&places);
-        dynamics.find_planar();
         dynamics
-    }
-
-    fn find_planar(&mut self) {
-        let (Order::Kept(kept), Some(forms)) = (&mut self.order, self.contacts.forms()) else {
-            return;
-        };
-        let ground = Ground {
-            model: self.model,
-            reduction: &kept.reduction,
-            state: &self.state,
-            steady: &self.constant,
-            springs: &self.springs,
-        };
-        kept.planar = Planar::new(&ground, &forms);
     }
 
     /// The right-hand side for a run from a state of all bodies, with what it leaves out.
@@ -260,19 +240,6 @@ impl<'m> Dynamics<'m> {
         }
     }
 
-    /// Computes the rates by the planar right-hand side, where there is one that applies; returns whether it did.
-    fn in_plane(&mut self, y: &[f64], dy: &mut [f64]) -> bool {
-        let done = match &mut self.order {
-            Order::Bodies => false,
-            Order::Kept(kept) => kept.in_plane(self.model, y, dy),
-        };
-        if done {
-            self.contacts.settle();
-            self.contact_torques = [0.0; 2];
-        }
-        done
-    }
-
     fn sum(&mut self, t: f64) {
         self.forces.copy_from(&self.constant);
         self.evaluate_contacts();
@@ -348,9 +315,6 @@ impl System for Dynamics<'_> {
 
     /// M q̈ = F(t, q, q̇) in state space ([*Bodies and frames*](crate::equations#bodies-and-frames)).
     fn rhs(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
-        if self.in_plane(y, dy) {
-            return;
-        }
         self.read(t, y);
         self.sum(t);
         let half = y.len() / 2;

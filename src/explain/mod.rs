@@ -90,7 +90,7 @@ pub struct ContactKind {
     pub race: String,
     /// Number of balls.
     pub contacts: usize,
-    /// Evaluation of a contact: `closed form`, `6 nodes`, `3 of 6 nodes (mirror symmetry)`, `50 slices`, `image of row 0`.
+    /// Evaluation of a contact: `6 nodes`, `3 of 6 nodes (mirror symmetry)`, `50 slices`, `image of row 0`.
     pub evaluation: String,
 }
 
@@ -102,7 +102,7 @@ pub struct ContactKind {
 /// scene.friction = Friction::None;
 /// let found = ballrace::explain(&scene).unwrap();
 /// assert_eq!((found.states, found.kept), (88, 44));
-/// assert_eq!(found.contacts[0].evaluation, "closed form");
+/// assert!(found.contacts[0].evaluation.starts_with("3 of 6 nodes"));
 /// ```
 ///
 /// # Errors

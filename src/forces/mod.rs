@@ -114,11 +114,6 @@ pub(crate) trait Force: Debug + Sync {
     fn turns_with_ring(&self, _model: &Model) -> bool {
         false
     }
-
-    /// Whether the loop for frictionless motion in a plane has it.
-    fn has_planar_form(&self) -> bool {
-        false
-    }
 }
 
 /// Use of a force in a run.

@@ -91,13 +91,6 @@ impl Table {
         Lanes::from_slice(&self.values[dof.index() * self.stride + first.index()..][..LANES])
     }
 
-    /// Adds to eight neighbours.
-    #[inline(always)]
-    pub fn add_eight(&mut self, first: BodyId, dof: Dof, lanes: Lanes) {
-        let values = &mut self.values[dof.index() * self.stride + first.index()..][..LANES];
-        (Lanes::from_slice(values) + lanes).to_slice(values);
-    }
-
     /// Reads a half of a state vector as `Model` orders it, body by body.
     pub fn read(&mut self, half: &[f64]) {
         let bodies = self.stride - LANES;

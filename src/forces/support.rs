@@ -51,10 +51,6 @@ impl Force for Supports {
         };
         model.layout().bodies().map(of).collect()
     }
-
-    fn has_planar_form(&self) -> bool {
-        true
-    }
 }
 
 /// Force of a spring and its damper against their direction \[N\], about z \[N m\].

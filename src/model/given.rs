@@ -47,12 +47,6 @@ impl GivenMotions {
 }
 
 impl Model {
-    /// Whether the motion of a ring is given in any direction, beside its rotation.
-    pub(crate) fn has_given_motions(&self) -> bool {
-        let mut given = self.rings.iter().flat_map(|ring| ring.given.all());
-        given.next().is_some()
-    }
-
     /// Whether a motion is given along the axis or about another.
     pub(crate) fn has_given_motions_off_plane(&self) -> bool {
         let given = self.rings.iter().flat_map(|ring| ring.given.all());

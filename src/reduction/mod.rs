@@ -38,8 +38,6 @@ pub struct Reduction {
     pub(crate) axial_places: Option<AxialPlaces>,
     /// The second row is the first one's mirror image.
     pub(crate) mirrored: bool,
-    /// Contacts may be evaluated in closed form.
-    pub(crate) closed: bool,
     omissions: Vec<Omission>,
     obstacles: Vec<Obstacle>,
 }
@@ -122,7 +120,6 @@ impl Reduction {
             plane: false,
             axial_places: None,
             mirrored: false,
-            closed: false,
             omissions: Vec::new(),
             obstacles: Vec::new(),
         };
@@ -194,8 +191,7 @@ impl Reduction {
                 .map_err(|reason| obstacle("without the unloaded row", reason))
                 .ok();
         }
-        (reduction.closed, reduction.plane, reduction.mirrored) =
-            (exact, grounds.plane, grounds.mirrored);
+        (reduction.plane, reduction.mirrored) = (grounds.plane, grounds.mirrored);
         reduction.rows = match grounds.idle {
             Some(row) => 1 - row..2 - row,
             None if grounds.mirrored => 0..1,

@@ -50,17 +50,16 @@ fn agrees(instructions: InstructionSet) -> bool {
         .is_some_and(|at| *FOUND[at].get_or_init(|| scenes().iter().all(|s| fits(s, instructions))))
 }
 
-/// Scenes of the test, one a way to evaluate contacts: by eights, in closed form along the balls with one over a spall, in one loop.
-fn scenes() -> [Scene; 3] {
+/// Scenes of the test: whole zones by eights, and halves of zones with a ball over a spall.
+fn scenes() -> [Scene; 2] {
     let wheel = presets::wheel_bearing(3000.0);
-    let mut smooth = presets::deep_groove_6205(500.0, 0.0, 1800.0);
-    smooth.friction = Friction::None;
-    let mut spalled = smooth.clone();
+    let mut spalled = presets::deep_groove_6205(500.0, 0.0, 1800.0);
+    spalled.friction = Friction::None;
     spalled.defects.clone_from(&wheel.defects);
     for spall in spalled.defects.values_mut() {
         spall.axial_offset = 0.0.into();
     }
-    [wheel, spalled, smooth]
+    [wheel, spalled]
 }
 
 fn fits(scene: &Scene, instructions: InstructionSet) -> bool {

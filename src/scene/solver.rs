@@ -119,8 +119,8 @@ pub struct Solver {
     /// accuracy require, smaller where contacts vibrate undamped. Default true: without it, runs with loose tolerances
     /// succeed with accelerations wrong by 30 % and more.
     pub frequency_cap: bool,
-    /// Whether a run leaves out what does not change the motion: directions without forces, mirror images, slices
-    /// where a closed form gives the same force. Default true.
+    /// Whether a run leaves out what does not change the motion: directions without forces and mirror images.
+    /// Default true.
     pub reduce: bool,
 }
 

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::vector::{Vector, Wide};
+use super::vector::Wide;
 #[cfg(target_arch = "x86_64")]
 use pulp::NullaryFnOnce;
 use pulp::{Scalar256b, Simd};
@@ -89,23 +89,6 @@ impl InstructionSet {
 }
 
 impl InstructionSet {
-    /// Numbers in a register.
-    fn lanes(self) -> usize {
-        self.run_wide(CountLanes)
-    }
-
-    /// Set whose registers so many numbers fill: this one or a narrower one.
-    pub(crate) fn filled_by(self, count: usize) -> Option<Self> {
-        let narrower = match self.0 {
-            #[cfg(target_arch = "x86_64")]
-            Level::V4(instructions) => Self(Level::V3(*instructions)),
-            _ => self,
-        };
-        [self, narrower]
-            .into_iter()
-            .find(|instructions| instructions.lanes() <= count)
-    }
-
     /// Runs a task that is written for registers of any width.
     #[inline]
     pub(crate) fn run_wide<T: Wide>(self, task: T) -> T::Output {
@@ -123,16 +106,6 @@ impl InstructionSet {
 /// optimisation is half a megabyte.
 fn baseline<T: Task, const FMA: bool>(task: T) -> T::Output {
     task.run::<FMA>()
-}
-
-struct CountLanes;
-
-impl Wide for CountLanes {
-    type Output = usize;
-
-    fn with_simd<S: Simd>(self, _: S) -> usize {
-        Vector::<S>::LANES
-    }
 }
 
 /// A task on an instruction set that fuses.

@@ -58,7 +58,7 @@ impl<const N: usize> ContactMatrix<N> {
         if model.has_films_in_motion() {
             self.search.update_films(model);
         }
-        self.search.find(None, model, views);
+        self.search.find(model, views);
         self.gather(model);
         let constants = &self.search.constants;
         let find = |batch: &mut HeldBalls<N>| batch.find_elements(model, constants, views);

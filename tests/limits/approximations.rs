@@ -192,30 +192,6 @@ fn places_speeds_and_rates_belong_together() {
     assert!((share(&shaken.full) / share(&y0) - 1.0).abs() < 1e-12);
 }
 
-/// Analytic: with axial places kept, a contact's force in the plane is one formula: that of its nodes.
-#[test]
-fn contacts_in_the_plane_have_a_closed_form() {
-    for law in [NormalLaw::iso16281(), NormalLaw::Hertz] {
-        let scene = wheel(law, FLAT);
-        let mut nodes = scene.clone();
-        nodes.solver.reduce = false;
-        let models = [&scene, &nodes].map(|scene| compile(scene).unwrap());
-        for seed in 0..10 {
-            let [closed, each] = models.each_ref().map(|model| Shaken::new(model, seed));
-            let bodies = closed.model.body_count();
-            let worst = (0..bodies)
-                .flat_map(|body| {
-                    let [a, b] = [&closed, &each].map(|of| acceleration(&of.rates, body));
-                    // Forces, over the load of the contacts.
-                    [0, 1].map(|i| (a[i] - b[i]).abs() * if body < 2 { 0.6 } else { 7e-3 } / 7e3)
-                })
-                .fold(0.0, f64::max);
-            println!("{worst:.1e}");
-            assert!(worst < 1e-10, "{worst:.1e}");
-        }
-    }
-}
-
 /// Analytic: with axial places kept, all else feels what it would.
 #[test]
 fn axial_places_are_kept_and_nothing_else() {

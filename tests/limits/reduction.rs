@@ -234,7 +234,7 @@ fn scenes() -> Vec<(&'static str, Scene, usize)> {
     scenes.push(("plane, a speed that changes", scene, 44));
     let mut thrust = presets::deep_groove_6205(500.0, 300.0, 1800.0);
     thrust.friction = Friction::None;
-    scenes.push(("thrust, closed form", thrust, 66));
+    scenes.push(("thrust without friction", thrust, 66));
     let mut scene = plane(hertz(), false);
     scene.drive = Drive::Torque {
         value: 1.0.into(),

@@ -45,7 +45,7 @@ def test_a_scene_is_explained() -> None:
     summary = br.Model(plane()).summary()
     assert (summary.bodies, summary.states, summary.kept) == (11, 88, 44)
     assert sum(2 * o["degrees"] for o in summary.omissions) == 44
-    assert [c["evaluation"] for c in summary.contacts] == ["closed form", "closed form"]
+    assert all(c["evaluation"].startswith("3 of 6 nodes") for c in summary.contacts)
     assert summary.constant == ["gravity", "load"]
     assert {"friction", "defects", "waviness"} <= set(summary.absent)
     assert summary.cost.seconds == pytest.approx(summary.cost.evaluations * summary.cost.evaluation)

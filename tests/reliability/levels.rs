@@ -29,7 +29,7 @@ fn spall(on: Surface) -> Defect {
     defect
 }
 
-/// A 6205 without friction: axially fixed rows, closed forms, with what must be looked at one by one.
+/// A 6205 without friction: halves of zones, with what must be looked at one by one.
 fn plane(law: NormalLaw, on: Option<Surface>) -> Scene {
     let mut scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
     scene.contact.law = law;

@@ -43,8 +43,8 @@ class Solver(Part):
         (``provenance.step_limit``). Without it, runs with loose tolerances succeed with accelerations wrong by 30
         % and more.
     reduce : bool
-        Whether a run leaves out what does not change the motion: directions without forces, mirror images, slices
-        where a closed form gives the same force.
+        Whether a run leaves out what does not change the motion: directions without forces and mirror
+        images.
     """
 
     method: Method = "adams"

@@ -34,14 +34,6 @@ pub(crate) struct BatchForces {
     pub left_out: Mask,
 }
 
-/// How the force of a contact is summed.
-pub(crate) enum Summing<'a> {
-    /// Element by element.
-    Elements(InstructionSet, &'a mut FrictionWeights),
-    /// The contact as a whole under Hertz's law, by its stiffness.
-    AsOne(f64),
-}
-
 /// Places of eight contacts and the directions in which they point.
 pub(super) struct Place {
     /// Unit vector in the plane from the ring's centre to the ball's, and their distance there.
@@ -76,18 +68,22 @@ struct Sums<'a> {
 
 impl Pair {
     /// Forces of eight contacts of this or another row: what their constants do not say (the kind of law, where
-    /// the ball is cut, damping, friction) is the same for all rows. Contacts in `skip` are left out, and reported.
+    /// the ball is cut, damping, friction) is the same for all rows.
     #[inline(always)]
     pub(crate) fn forces<const FMA: bool, const SYMMETRIC: bool>(
         &self,
         eight: &EightContacts,
         ring: &RingLanes,
-        skip: Mask,
-        summing: Summing<'_>,
+        instructions: InstructionSet,
+        friction_weight: &mut FrictionWeights,
     ) -> BatchForces {
-        let (whole, moves, place) = self.place::<FMA, SYMMETRIC>(eight, ring, skip);
+        let (whole, moves, place) = self.place::<FMA, SYMMETRIC>(eight, ring, Mask::default());
         let mut sums = Sums::new(self, ring.sigma, &whole, &moves);
-        self.elements::<FMA, SYMMETRIC>(ring.sigma, &whole, &moves, summing, &mut sums);
+        let slip = self.slip::<FMA>(ring.sigma, &whole, &moves);
+        let friction_weight =
+            friction_weight.at_nodes(instructions, self, slip.as_ref(), &whole.half);
+        let (law, slices) = (&self.law, &self.slices);
+        kernel::elements::<_, FMA, SYMMETRIC>(law, slices, friction_weight, &whole, &mut sums);
         sums.on_bodies(&place)
     }
 
@@ -185,36 +181,6 @@ impl Pair {
             Rolling::new(d, across, [eight.v[3], omega])
         } else {
             Rolling::resting(d)
-        }
-    }
-
-    /// Sum over all elements, or one for all.
-    #[inline(always)]
-    fn elements<const FMA: bool, const SYMMETRIC: bool>(
-        &self,
-        sigma: Lanes,
-        whole: &Whole<Lanes>,
-        moves: &Moves<Lanes>,
-        summing: Summing<'_>,
-        to: &mut impl Receiver<Lanes>,
-    ) {
-        match summing {
-            Summing::AsOne(stiffness) => {
-                let element = kernel::as_one(whole, stiffness);
-                to.element::<FMA, false>(&element, self.slices.count());
-            }
-            Summing::Elements(instructions, friction_weight) => {
-                let slip = self.slip::<FMA>(sigma, whole, moves);
-                let friction_weight =
-                    friction_weight.at_nodes(instructions, self, slip.as_ref(), &whole.half);
-                kernel::elements::<_, FMA, SYMMETRIC>(
-                    &self.law,
-                    &self.slices,
-                    friction_weight,
-                    whole,
-                    to,
-                );
-            }
         }
     }
 }

@@ -47,11 +47,6 @@ impl Law {
         }
     }
 
-    /// Whether nothing but damping comes on top of the elastic force.
-    pub(crate) fn is_elastic_or_damped(&self) -> bool {
-        self.traction.is_none() && self.film.is_none()
-    }
-
     /// Whether friction and films follow the same equations as another law's: numbers of films may differ.
     pub(crate) fn rubs_like(&self, other: &Self) -> bool {
         let effects = |law: &Self| law.film.map(|oiled| oiled.film.effects());

@@ -3,7 +3,7 @@
 use super::{RingView, Single, View};
 use crate::contact::{
     Across, BatchForces, Constants, Contour, EightContacts, FilmNumbers, FrictionWeights, Pair,
-    Raise, RingLanes, Summing,
+    Raise, RingLanes,
 };
 use crate::model::{Ball, BodyId, Model, Race};
 use crate::simd::{LANES, Lanes, Mask, Task};
@@ -401,8 +401,8 @@ impl<const TILTED: bool> Eight<'_, TILTED> {
             let inner = RingLanes::of(&of.views[Race::Inner].ring, Race::Inner.sigma());
             ring = ring.or(outer, &inner);
         }
-        let summing = Summing::Elements(of.model.instructions, &mut group.friction_weight);
-        group.forces = pair.forces::<FMA, SYMMETRIC>(&eight, &ring, Mask::default(), summing);
+        let (instructions, weights) = (of.model.instructions, &mut group.friction_weight);
+        group.forces = pair.forces::<FMA, SYMMETRIC>(&eight, &ring, instructions, weights);
     }
 }
 

@@ -1,9 +1,9 @@
 //! Finds which balls touch which race, eight at a time.
 
-use super::{Batch, SideConstants, Single, Touching, View};
-use crate::contact::{Constants, EightContacts, HeightTable, Places, Raise, RingLanes, Summing};
+use super::{Batch, Single, Touching, View};
+use crate::contact::{HeightTable, Places, Raise};
 use crate::forces::Table;
-use crate::model::{BodyId, DOFS, Dof, Model, Race};
+use crate::model::{BodyId, Dof, Model, Race};
 use crate::simd::{LANES, Lanes, Mask, Task};
 
 /// Neighbours of a row, up to eight.
@@ -18,18 +18,10 @@ pub(super) struct Neighbours {
     defective: Mask,
     /// Whether the balls have a texture.
     textured: bool,
-    /// Constants of their contacts with the outer and with the inner race.
-    constants: [Constants<Lanes>; 2],
 }
 
 impl Neighbours {
-    pub fn new(
-        model: &Model,
-        constants: &[SideConstants; 2],
-        row: usize,
-        first: usize,
-        count: usize,
-    ) -> Self {
+    pub fn new(model: &Model, row: usize, first: usize, count: usize) -> Self {
         let lane = |lane: usize| first + lane.min(count - 1);
         Self {
             row,
@@ -38,18 +30,6 @@ impl Neighbours {
             filled: Mask::from_fn(|i| i < count),
             defective: Mask::from_fn(|i| !model.balls[lane(i)].side.defects.is_empty()),
             textured: model.has_textured_balls(&model.rows[row]),
-            constants: Race::BOTH.map(|race| {
-                let mut all = Constants::default();
-                (0..LANES).for_each(|i| all.set(i, &constants[race].balls[lane(i)]));
-                all
-            }),
-        }
-    }
-
-    /// Takes over the radii of races.
-    pub fn update_films(&mut self, model: &Model) {
-        for (of, pair) in self.constants.iter_mut().zip(&model.rows[self.row].pairs) {
-            of.r = Lanes::all(pair.race.r);
         }
     }
 
@@ -84,10 +64,9 @@ impl Neighbours {
     }
 }
 
-/// Finds what touches, and evaluates what has a closed form.
+/// Finds what touches.
 pub(super) struct Find<'a> {
     pub batch: &'a mut Batch,
-    pub forces: Option<&'a mut Table>,
     pub model: &'a Model,
     pub views: &'a [View<'a>; 2],
 }
@@ -101,19 +80,15 @@ impl Task for Find<'_> {
     fn run<const FMA: bool>(self) {
         let Self {
             batch,
-            mut forces,
             model,
             views,
         } = self;
-        let mut on_rings = [[Lanes::ZERO; DOFS]; 2];
         for stretch in &batch.stretches {
             let mut lost = Mask::default();
             let class = model.rows[stretch.row].class;
             for race in Race::BOTH {
                 let pair = &model.rows[stretch.row].pairs[race];
-                let View {
-                    q: q_of, v, ring, ..
-                } = &views[race];
+                let View { q: q_of, ring, .. } = &views[race];
                 let mut q = stretch.along(q_of);
                 // Cages and modes may lie on the axis, where nothing has a direction.
                 q[0] = stretch.filled.choose(q[0], Lanes::all(1.0));
@@ -134,42 +109,6 @@ impl Task for Find<'_> {
                     continue;
                 }
                 let defective = near.defective.or(stretch.defective).and(touching);
-                let stiffness = batch.stiffness[stretch.row][race];
-                if let Some((stiffness, forces)) = stiffness.zip(forces.as_deref_mut()) {
-                    let skip = defective.or(touching.not());
-                    let [v_x, v_y, v_z] = stretch.along(v);
-                    let eight = EightContacts {
-                        constants: stretch.constants[race],
-                        raise: near.raise,
-                        wavy: !pair.waves.is_round(),
-                        swell: near.swell,
-                        q,
-                        v: [v_x, v_y, v_z, Lanes::ZERO],
-                        // Closed forms have none.
-                        film: None,
-                    };
-                    let summing = Summing::AsOne(stiffness);
-                    let ring = &RingLanes::of(ring, race.sigma());
-                    let found = pair.forces::<FMA, false>(&eight, ring, skip, summing);
-                    for (i, force) in found.ball.into_iter().take(3).enumerate() {
-                        let dof = Dof::TRANSLATIONS[i];
-                        forces.add_eight(BodyId::ball(stretch.first), dof, force);
-                        on_rings[race][dof] = on_rings[race][dof] - force;
-                    }
-                    on_rings[race][Dof::Theta] += found.ring[Dof::Theta];
-                    if near.swell.is_some() {
-                        let (ball, moment) = (BodyId::ball(stretch.first), found.ball[Dof::Theta]);
-                        forces.add_eight(ball, Dof::Theta, moment);
-                    }
-                    batch.pulls += found.pulls;
-                    let left_out = found.left_out.or(defective).and(touching);
-                    if left_out.any() {
-                        for lane in left_out.lanes() {
-                            batch.singles.push(Single::new(race, stretch.first + lane));
-                        }
-                    }
-                    continue;
-                }
                 for lane in touching.lanes() {
                     let ball = stretch.first + lane;
                     if defective.lane(lane) {
@@ -189,9 +128,6 @@ impl Task for Find<'_> {
             if lost.any() && batch.lost.is_none() {
                 batch.lost = lost.lanes().map(|lane| stretch.first + lane).next();
             }
-        }
-        for (ring, sums) in batch.rings.iter_mut().zip(on_rings) {
-            *ring = sums.map(Lanes::sum);
         }
     }
 }

@@ -1,15 +1,11 @@
 //! Batch of all contacts of an evaluation: those that touch are found, gathered by eights and evaluated together.
 //!
-//! Contacts in closed form are evaluated without being gathered, which would cost more. If the balls of a row also keep their axial
-//! positions, they are not searched for contact either.
-//!
 //! Each ring has its own [`View`] of the balls: the scene's state where rings are parallel, else all balls turned into its frame, where
 //! separate code adds the slip of balls that turn across its axis.
 //!
 //! Eights may be evaluated by several threads; since their members depend on the state alone and they are added
 //! up in one order afterwards, the bits do not depend on the number of threads.
 
-mod axially_fixed;
 mod eight;
 mod find;
 mod single;
@@ -21,13 +17,11 @@ use std::ops::Range;
 use nalgebra::Vector3;
 
 use crate::base::pool::{self, Pool};
-use crate::contact::{self, BatchForces, InPlane};
+use crate::contact::BatchForces;
 use crate::forces::Table;
-use crate::model::{BodyId, DOFS, Degree, Dof, Model, Race};
-use crate::reduction::AxialPlaces;
+use crate::model::{BodyId, DOFS, Dof, Model, Race};
 use crate::simd::{LANES, Lanes};
 
-use axially_fixed::{AxiallyFixedRow, AxiallyFixedSums, EvaluateAxiallyFixed};
 use eight::{EvaluateEight, Group, ToScene, leave, mixes};
 pub(crate) use eight::{SideConstants, Touching};
 use find::{Find, Neighbours};
@@ -44,12 +38,8 @@ pub(crate) struct Guarantees {
     pub rows: Range<usize>,
     /// Guarantee that all bodies stay in the planes of their rows.
     pub symmetric: bool,
-    /// Axial places of rings and rows that never change.
-    pub axial_places: Option<AxialPlaces>,
     /// The second row is an image of the first.
     pub mirrored: bool,
-    /// Closed forms are used where there are any.
-    pub closed: bool,
 }
 
 impl Guarantees {
@@ -58,22 +48,8 @@ impl Guarantees {
         Self {
             rows: 0..model.rows.len(),
             symmetric: false,
-            axial_places: None,
             mirrored: false,
-            closed: false,
         }
-    }
-
-    /// Axial place of a row's balls from the centre of a groove, where it never changes.
-    fn offset(&self, model: &Model, row: usize, race: Race) -> Option<f64> {
-        if self.symmetric {
-            return Some(0.0);
-        }
-        let compiled = &model.rows[row];
-        let places = self.axial_places.as_ref()?;
-        let held = |j: usize| model.bodies[BodyId::ball(j)].degrees[Dof::Z] == Degree::Fixed;
-        let free = !compiled.balls().any(held);
-        free.then(|| places.rows[row] - places.rings[race] - compiled.pairs[race].race.centre)
     }
 }
 
@@ -81,12 +57,8 @@ impl Guarantees {
 #[derive(Debug, Clone)]
 pub(crate) struct Batch {
     kind: Guarantees,
-    /// Rows whose balls keep their axial places: evaluated ball by ball without a search.
-    fixed_rows: Vec<AxiallyFixedRow>,
-    /// The balls of the other rows by eights, for the search.
+    /// The balls by eights, for the search.
     stretches: Vec<Neighbours>,
-    /// Hertz's stiffness where it is all there is to a contact, by row and race.
-    stiffness: Vec<[Option<f64>; 2]>,
     /// Constants of the contacts with the outer and with the inner race.
     pub constants: [SideConstants; 2],
     /// Contacts of whole surfaces with the outer and with the inner ring in the order of the balls, by the class of their row.
@@ -100,44 +72,23 @@ pub(crate) struct Batch {
     singles: Vec<Single>,
     /// The first ball that has left its groove.
     lost: Option<usize>,
-    /// Forces on the two rings by closed forms, and slices there whose damping wanted to pull.
-    rings: [[f64; DOFS]; 2],
-    pulls: u32,
 }
 
 impl Batch {
     pub fn new(model: &Model, kind: Guarantees) -> Self {
         let constants: [SideConstants; 2] = Race::BOTH.map(|race| SideConstants::new(model, race));
-        let fixed_rows: Vec<AxiallyFixedRow> = kind
-            .rows
-            .clone()
-            .filter_map(|row| AxiallyFixedRow::new(model, row, &kind))
-            .collect();
         let mut stretches = Vec::new();
-        for (row, compiled) in model.rows.iter().enumerate() {
-            if !kind.rows.contains(&row) || fixed_rows.iter().any(|fixed| fixed.row() == row) {
-                continue;
-            }
+        for row in kind.rows.clone() {
+            let compiled = &model.rows[row];
             for start in (0..compiled.count).step_by(LANES) {
                 let (first, count) = (compiled.first + start, LANES.min(compiled.count - start));
-                stretches.push(Neighbours::new(model, &constants, row, first, count));
+                stretches.push(Neighbours::new(model, row, first, count));
             }
         }
         let balls = model.balls.len();
         let eights = model.classes().map(|class| model.eights(class));
         Self {
             groups: vec![Group::default(); 2 * eights.sum::<usize>()],
-            stiffness: model
-                .rows
-                .iter()
-                .map(|row| {
-                    row.pairs.each_ref().map(|pair| {
-                        let anywhere = kind.closed && !kind.symmetric;
-                        contact::hertz_stiffness(pair).filter(|_| anywhere)
-                    })
-                })
-                .collect(),
-            fixed_rows,
             kind,
             stretches,
             constants,
@@ -150,8 +101,6 @@ impl Batch {
                 .collect(),
             singles: Vec::with_capacity(2 * balls),
             lost: None,
-            rings: [[0.0; DOFS]; 2],
-            pulls: 0,
         }
     }
 
@@ -159,9 +108,6 @@ impl Batch {
     pub fn update_films(&mut self, model: &Model) {
         for race in Race::BOTH {
             self.constants[race].update_films(model, race);
-        }
-        for stretch in &mut self.stretches {
-            stretch.update_films(model);
         }
     }
 
@@ -174,7 +120,7 @@ impl Batch {
         views: &[View<'_>; 2],
         pool: Option<&Pool>,
     ) -> [f64; 2] {
-        self.fill(forces, model, views, pool);
+        self.fill(model, views, pool);
         let mut rings = self.add_balls(forces);
         for race in Race::BOTH {
             let sum = &mut rings[race];
@@ -196,7 +142,7 @@ impl Batch {
         views: &[View<'_>; 2],
         pool: Option<&Pool>,
     ) -> OnRings {
-        self.fill(forces, model, views, pool);
+        self.fill(model, views, pool);
         let (rings, across) = (self.add_balls(forces), self.moments_across(views));
         Race::BOTH.map(|race| {
             let ([x, y, z, about], [about_x, about_y]) = (rings[race], across[race]);
@@ -204,15 +150,8 @@ impl Batch {
         })
     }
 
-    fn fill(
-        &mut self,
-        forces: &mut Table,
-        model: &Model,
-        views: &[View<'_>; 2],
-        pool: Option<&Pool>,
-    ) {
-        self.find(Some(forces), model, views);
-        self.axially_fixed(forces, model, views);
+    fn fill(&mut self, model: &Model, views: &[View<'_>; 2], pool: Option<&Pool>) {
+        self.find(model, views);
         self.gather(views);
         if self.active > 0 || !self.singles.is_empty() {
             self.evaluate(model, views, pool);
@@ -246,40 +185,14 @@ impl Batch {
         pool::each(pool, singles, one);
     }
 
-    /// Evaluates the rows whose balls keep their axial places.
-    fn axially_fixed(&mut self, forces: &mut Table, model: &Model, views: &[View<'_>; 2]) {
-        for row in &mut self.fixed_rows {
-            if row.must_look() {
-                row.look(model, views);
-            }
-            model.instructions.run_wide(EvaluateAxiallyFixed {
-                pairs: &model.rows[row.row()].pairs,
-                row,
-                views,
-                forces,
-                sums: AxiallyFixedSums {
-                    rings: &mut self.rings,
-                    singles: &mut self.singles,
-                    pulls: &mut self.pulls,
-                    lost: &mut self.lost,
-                },
-            });
-        }
-    }
-
-    /// Finds the contacts that touch. Those with a closed form are evaluated at once, where `forces` is given.
-    pub fn find(&mut self, forces: Option<&mut Table>, model: &Model, views: &[View<'_>; 2]) {
+    /// Finds the contacts that touch.
+    pub fn find(&mut self, model: &Model, views: &[View<'_>; 2]) {
         let touching = self.touching.as_flattened_mut().iter_mut();
         touching.for_each(Vec::clear);
         self.singles.clear();
-        (self.lost, self.pulls) = (None, 0);
-        self.rings = [[0.0; DOFS]; 2];
-        if self.stretches.is_empty() {
-            return;
-        }
+        self.lost = None;
         model.instructions.run(Find {
             batch: self,
-            forces,
             model,
             views,
         });
@@ -322,7 +235,7 @@ impl Batch {
 
     /// Adds the sums on balls; returns those on the rings.
     fn add_balls(&self, forces: &mut Table) -> [[f64; DOFS]; 2] {
-        let mut rings = self.rings;
+        let mut rings = [[0.0; DOFS]; 2];
         for group in &self.groups[..self.active] {
             for (lane, contact) in group.contacts.iter().enumerate().take(group.count) {
                 let BatchForces { ball, ring, .. } = &group.forces;
@@ -372,23 +285,6 @@ impl Batch {
         rings
     }
 
-    /// The closed forms of all rows, where every contact has one and there are no waves and defects to look for.
-    pub fn forms(&self) -> Option<Vec<(usize, [InPlane; 2])>> {
-        let forms = self.fixed_rows.iter().map(AxiallyFixedRow::plain).collect();
-        if self.stretches.is_empty() {
-            forms
-        } else {
-            None
-        }
-    }
-
-    /// Forgets the last evaluation, since the planar right-hand side has taken its place: there no damping pulled, no
-    /// shoulder was reached and no ball was lost.
-    pub fn settle(&mut self) {
-        self.singles.clear();
-        (self.active, self.lost, self.pulls) = (0, None, 0);
-    }
-
     /// Rows that are evaluated.
     pub fn rows(&self) -> Range<usize> {
         self.kind.rows.clone()
@@ -397,12 +293,6 @@ impl Batch {
     /// Whether one row stands for two.
     pub fn is_mirrored(&self) -> bool {
         self.kind.mirrored
-    }
-
-    /// Whether the contacts of a row with a race are evaluated in closed form.
-    pub fn is_closed(&self, row: usize, race: Race) -> bool {
-        self.stiffness[row][race].is_some()
-            || self.fixed_rows.iter().any(|fixed| fixed.row() == row)
     }
 
     /// Whether all bodies stay in the planes of their rows.
@@ -417,7 +307,7 @@ impl Batch {
             .map(|group| group.forces.pulls)
             .sum();
         let single: u32 = self.singles.iter().map(|single| single.pulls).sum();
-        (self.pulls + grouped + single) as usize * (1 + usize::from(self.kind.mirrored))
+        (grouped + single) as usize * (1 + usize::from(self.kind.mirrored))
     }
 
     /// Contacts cut off by a shoulder.
@@ -426,7 +316,7 @@ impl Batch {
         cut.count() * (1 + usize::from(self.kind.mirrored))
     }
 
-    /// The first ball that is lost ([`contact::Torus::farthest`]).
+    /// The first ball that is lost ([`crate::contact::Torus::farthest`]).
     pub fn lost(&self) -> Option<usize> {
         self.lost
     }

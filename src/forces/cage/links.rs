@@ -59,10 +59,6 @@ impl Force for LinkForces {
         };
         (0..model.rows.len()).map(of).collect()
     }
-
-    fn has_planar_form(&self) -> bool {
-        true
-    }
 }
 
 /// A cage link between two balls: force on the first (positive in tension), stored energy and dissipated power.

@@ -10,8 +10,6 @@ pub mod hertz;
 pub mod iso16281;
 mod power;
 
-pub(in crate::contact) use power::ten_ninths;
-
 use super::Cut;
 use crate::scene::NormalLaw;
 use crate::simd::Number;
