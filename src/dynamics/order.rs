@@ -63,6 +63,11 @@ impl Dynamics<'_> {
         }
     }
 
+    /// Whether one row stands for two.
+    pub(crate) fn is_mirrored(&self) -> bool {
+        self.contacts.is_mirrored()
+    }
+
     /// Gives a second row that is the image of the first its changes of velocity, out of those of all bodies.
     pub(crate) fn mirror(&self, changes: &mut [f64]) {
         if let Order::Kept(kept) = &self.order {

@@ -7,12 +7,12 @@
 
 use std::array::from_fn;
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::SMatrix;
 
 use super::carrier::{Carrier, LaneMatrix, RingRotation};
-use super::factors::{Factors, OnBothRings};
+use super::inverse::{OnBothRings, inverse};
 use crate::contact::AXIAL;
-use crate::simd::Lanes;
+use crate::simd::{LANES, Lanes, Simd, Vector};
 
 /// Balls eliminated by eights, and the rings' own matrix factorised: good for any right-hand side.
 ///
@@ -23,7 +23,8 @@ pub(super) struct Arrow<const N: usize> {
     /// Blocks that the balls put into each ring's rows for either ring, before L and J, and into their right-hand side.
     rings: [[LaneMatrix<N>; 2]; 2],
     right: [[Lanes; N]; 2],
-    factors: Option<Factors>,
+    /// Inverse of the rings' matrix, once there is one; none if it is singular.
+    inverse: Option<[[SMatrix<f64, N, N>; 2]; 2]>,
     carriers: [Carrier<N>; 2],
     /// Largest part of a ball's own velocity in its acceleration, times γh.
     pub stiffest: f64,
@@ -67,7 +68,7 @@ impl<const N: usize> Arrow<N> {
         Self {
             rings: [[none; 2]; 2],
             right: [[Lanes::ZERO; N]; 2],
-            factors: None,
+            inverse: None,
             carriers: [Carrier::default(); 2],
             stiffest: 0.0,
             eights: vec![eight; eights],
@@ -168,10 +169,10 @@ impl<const N: usize> Arrow<N> {
                 carriers[s].scale * of * carriers[other].seen
             })
         });
-        self.factors = Some(Factors::of::<N>(|i, j| {
+        self.inverse = inverse(|i, j| {
             let own = if i == j { diagonal[i / N][i % N] } else { 0.0 };
             own - blocks[i / N][j / N][(i % N, j % N)]
-        }));
+        });
         self.carriers = *carriers;
     }
 
@@ -181,58 +182,101 @@ impl<const N: usize> Arrow<N> {
     }
 
     /// Eliminates eight balls from the right-hand side.
+    // In registers: of loops over lanes the compiler makes gathers along the matrices, four times as slow.
     #[inline(always)]
-    pub fn eliminate_right<const FMA: bool>(&mut self, eight: usize, right: &[Lanes; N]) {
-        let eight = &mut self.eights[eight];
-        eight.part = product::<FMA, N>(&eight.inverse, right);
-        for s in (0..2).filter(|&s| eight.touches[s]) {
-            let sums = product::<FMA, N>(&eight.from[s], &eight.part);
-            for i in 0..N {
-                self.right[s][i] += sums[i];
+    pub fn eliminate_right<S: Simd>(&mut self, simd: S, eight: usize, right: &[Lanes; N]) {
+        let EightBalls {
+            inverse,
+            from,
+            touches,
+            part,
+            ..
+        } = &mut self.eights[eight];
+        for at in (0..LANES).step_by(Vector::<S>::LANES) {
+            let own = product(simd, at, inverse, right);
+            for (to, own) in part.iter_mut().zip(own) {
+                own.store(&mut to.numbers_mut()[at..]);
+            }
+            for s in (0..2).filter(|&s| touches[s]) {
+                let to_ring = product(simd, at, &from[s], part);
+                for (to, more) in self.right[s].iter_mut().zip(to_ring) {
+                    let to = &mut to.numbers_mut()[at..];
+                    (Vector::load(simd, to) + more).store(to);
+                }
             }
         }
     }
 
     /// The rings' unknowns for their R; none if the system is singular.
+    #[inline(always)]
     pub fn rings(&self, right: &OnBothRings<N>) -> Option<OnBothRings<N>> {
+        let inverse = self.inverse.as_ref()?;
         let known: OnBothRings<N> = from_fn(|s| {
-            let sums = SVector::from_fn(|i, _| self.right[s][i].sum());
-            (SVector::from(right[s]) - self.carriers[s].scale * sums).into()
+            let sums = from_fn(|i| -self.right[s][i].sum());
+            added(right[s], &self.carriers[s].scale, &sums)
         });
-        self.factors.as_ref()?.solve(&known)
+        Some(from_fn(|s| {
+            let first = added([0.0; N], &inverse[s][0], &known[0]);
+            added(first, &inverse[s][1], &known[1])
+        }))
     }
 
     /// The rings' unknowns as the contacts see them, J X.
+    #[inline(always)]
     pub fn seen(&self, rings: &OnBothRings<N>) -> OnBothRings<N> {
-        from_fn(|s| (self.carriers[s].seen * SVector::from(rings[s])).into())
+        from_fn(|s| added([0.0; N], &self.carriers[s].seen, &rings[s]))
     }
 
     /// The unknowns of eight balls, once the rings' are known as the contacts see them.
     #[inline(always)]
-    pub fn balls<const FMA: bool>(&self, eight: usize, rings: &OnBothRings<N>) -> [Lanes; N] {
+    pub fn balls<S: Simd>(&self, simd: S, eight: usize, rings: &OnBothRings<N>) -> [Lanes; N] {
         let EightBalls { part, wide, .. } = &self.eights[eight];
-        let mut x = *part;
-        for i in 0..N {
-            for s in 0..2 {
-                for j in 0..N {
-                    x[i] = x[i] - wide[s][i][j] * rings[s][j];
+        let mut balls = *part;
+        for at in (0..LANES).step_by(Vector::<S>::LANES) {
+            for (i, ball) in balls.iter_mut().enumerate() {
+                let to = &mut ball.numbers_mut()[at..];
+                let mut x = Vector::load(simd, to);
+                for (wide, ring) in wide.iter().zip(rings) {
+                    for (wide, ring) in wide[i].iter().zip(ring) {
+                        x = x - Vector::load(simd, &wide.numbers()[at..]) * *ring;
+                    }
                 }
+                x.store(to);
             }
         }
-        x
+        balls
     }
 }
 
+/// A matrix times a vector, in the lanes of a register from one of them on. Loops, since closures are not compiled for the register's
+/// instructions where the compiler does not take them in.
 #[inline(always)]
-fn product<const FMA: bool, const N: usize>(a: &LaneMatrix<N>, x: &[Lanes; N]) -> [Lanes; N] {
-    let mut product = [Lanes::ZERO; N];
-    for i in 0..N {
-        product[i] = a[i][0] * x[0];
-        for k in 1..N {
-            product[i] = a[i][k].mul_add::<FMA>(x[k], product[i]);
+fn product<S: Simd, const N: usize>(
+    simd: S,
+    at: usize,
+    a: &LaneMatrix<N>,
+    x: &[Lanes; N],
+) -> [Vector<S>; N] {
+    let mut product = [Vector::all(simd, 0.0); N];
+    for k in 0..N {
+        let x = Vector::load(simd, &x[k].numbers()[at..]);
+        for i in 0..N {
+            let a = Vector::load(simd, &a[i][k].numbers()[at..]);
+            product[i] = a.mul_add(x, product[i]);
         }
     }
     product
+}
+
+/// A vector and a matrix times another, column by column: of six directions nalgebra makes blocks for large matrices.
+#[inline(always)]
+fn added<const N: usize>(mut to: [f64; N], a: &SMatrix<f64, N, N>, x: &[f64; N]) -> [f64; N] {
+    for (j, x) in x.iter().enumerate() {
+        for i in 0..N {
+            to[i] += a[(i, j)] * x;
+        }
+    }
+    to
 }
 
 /// A row times T: a ring that turns about an axis e moves what stands at a by e × a.
@@ -299,6 +343,7 @@ mod tests {
 
     use super::*;
     use crate::contact::FREE;
+    use crate::simd::{InstructionSet, Wide};
     use crate::tilt::Frame;
 
     type Square<const N: usize> = SMatrix<f64, N, N>;
@@ -339,6 +384,28 @@ mod tests {
         turned
     }
 
+    /// The unknowns of the rings and of sixteen balls.
+    struct Solved<'a, const N: usize> {
+        arrow: &'a mut Arrow<N>,
+        right: [[Lanes; N]; 2],
+        ring_right: OnBothRings<N>,
+    }
+
+    impl<const N: usize> Wide for Solved<'_, N> {
+        type Output = (OnBothRings<N>, [[Lanes; N]; 2]);
+
+        fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+            let Self { arrow, right, .. } = self;
+            arrow.begin_right();
+            for (eight, right) in right.iter().enumerate() {
+                arrow.eliminate_right(simd, eight, right);
+            }
+            let rings = arrow.rings(&self.ring_right).unwrap();
+            let seen = arrow.seen(&rings);
+            (rings, [0, 1].map(|eight| arrow.balls(simd, eight, &seen)))
+        }
+    }
+
     fn solves_the_arrow<const N: usize>() {
         // Ball by ring and lane; the second eight has no contact with the first ring.
         let slope = |eight: usize, s: usize, lane: usize| {
@@ -357,7 +424,6 @@ mod tests {
         let ring_right: OnBothRings<N> = from_fn(|s| from_fn(|i| (s * N + i) as f64));
         let mut arrow = Arrow::<N>::new(2);
         arrow.begin();
-        arrow.begin_right();
         let has = |eight: usize, s: usize| eight == 0 || s == 1;
         for eight in 0..2 {
             let blocks: [LaneMatrix<N>; 2] = [0, 1].map(|s| {
@@ -369,18 +435,18 @@ mod tests {
                 let slope = &blocks[s];
                 has(eight, s).then_some(EightOnRing { slope, apart, turn })
             });
-            let right = from_fn(|i| Lanes::from_fn(|lane| right(eight, lane)[i]));
             arrow.eliminate::<true>(eight, &contacts, &scale.map(Lanes::all));
-            arrow.eliminate_right::<true>(eight, &right);
         }
         arrow.factorise(&[[9.0; N]; 2], &carriers);
-        let rings = arrow.rings(&ring_right).unwrap();
-        let seen = arrow.seen(&rings);
+        let (rings, balls) = InstructionSet::current().run_wide(Solved {
+            arrow: &mut arrow,
+            right: from_fn(|eight| from_fn(|i| Lanes::from_fn(|lane| right(eight, lane)[i]))),
+            ring_right,
+        });
         let mut sums = [0, 1].map(|s| SVector::from(rings[s]) * 9.0 - SVector::from(ring_right[s]));
         for eight in 0..2 {
-            let balls = arrow.balls::<true>(eight, &seen);
             for lane in 0..8 {
-                let ball = SVector::<f64, N>::from_fn(|i, _| balls[i][lane]);
+                let ball = SVector::<f64, N>::from_fn(|i, _| balls[eight][i][lane]);
                 let mut off = ball - right(eight, lane);
                 for s in (0..2).filter(|&s| has(eight, s)) {
                     let (carry, turn) = (carry::<N>(apart(s, lane)), turned::<N>(&frames[s]));

@@ -1,13 +1,14 @@
 //! Corrections of velocities by the matrix of the contacts' friction, damping and stiffness, once a step, for
 //! [`Adams`](crate::integrate::Adams).
 
-use super::matrix::{ContactMatrix, Velocity};
+use super::apart::Apart;
+use super::matrix::{ContactMatrix, NOWHERE, Velocity};
 use crate::base::words::{Remembered, Unfit, Words};
 use crate::contact::{AXIAL, FREE};
 use crate::dynamics::{Dynamics, RingView, View};
 use crate::forces::{self, State};
 use crate::integrate::{LinearlyImplicit, System};
-use crate::model::{BodyId, DOFS, Dof, RowModel};
+use crate::model::RowModel;
 
 /// Steps that a matrix serves at most. On 64 scenes (two presets, random bearings) 8, 32, 128 and 512 gave errors alike and
 /// step counts within half a percent; a new one costs about six evaluations (a profile of the wheel bearing).
@@ -58,10 +59,10 @@ trait Corrects: std::fmt::Debug {
 #[derive(Debug)]
 struct BodyMatrix<const N: usize> {
     matrix: ContactMatrix<N>,
-    /// The velocities of the run that are corrected, along axes and about them.
-    corrected: Vec<Velocity>,
-    /// Corrections along the radii of balls.
-    radial: Vec<Radial>,
+    /// Places of velocities by body, among those of the run or of `apart`.
+    places: Vec<[usize; N]>,
+    /// Velocities of all bodies, where those of the run are not simply some of them.
+    apart: Option<Apart<N>>,
     /// The last state of all bodies, as a run's vector and as the contacts read it.
     full: Vec<f64>,
     state: State,
@@ -94,16 +95,6 @@ impl Remembered for MadeOf {
         self.by.reach.pass(words);
         self.film_speed.pass(words);
     }
-}
-
-/// The velocity of a ball along its radius, where its distance from the shaft is a state.
-#[derive(Debug)]
-struct Radial {
-    /// Offset among the states of a run.
-    at: usize,
-    ball: BodyId,
-    /// Direction of the radius, when the matrix was made.
-    direction: [f64; 2],
 }
 
 impl<'d, 'm> Damped<'d, 'm> {
@@ -218,25 +209,13 @@ impl<const N: usize> Corrects for BodyMatrix<N> {
 
     /// Directions that the run leaves out are not corrected. A singular matrix corrects nothing.
     fn solve(&mut self, dynamics: &Dynamics<'_>, r: &mut [f64]) {
-        let residual = &mut self.matrix.residual;
-        residual.fill([0.0; N]);
-        for Velocity { at, body, place } in &self.corrected {
-            residual[body.index()][*place] = r[*at];
-        }
-        for radial in &self.radial {
-            radial.put(r, &mut residual[radial.ball.index()]);
-        }
-        if N == DOFS {
-            dynamics.mirror(residual.as_flattened_mut());
-        }
-        if self.matrix.correct(dynamics.model()) {
-            for Velocity { at, body, place } in &self.corrected {
-                r[*at] = self.matrix.residual[body.index()][*place];
-            }
-            for radial in &self.radial {
-                radial.take(&self.matrix.residual[radial.ball.index()], r);
-            }
-        }
+        let model = dynamics.model();
+        let Some(apart) = &mut self.apart else {
+            self.matrix.correct(model, r);
+            return;
+        };
+        self.matrix.correct(model, apart.read(dynamics, r));
+        apart.write(r);
     }
 }
 
@@ -245,19 +224,22 @@ impl<const N: usize> BodyMatrix<N> {
         let (model, state) = (dynamics.model(), dynamics.state().clone());
         let mut full = vec![0.0; model.dim()];
         state.write(&mut full);
-        let degrees = dynamics.degrees().into_iter().enumerate();
-        let radii = dynamics.radii();
-        let is_radius = |at: usize| radii.iter().any(|(radius, _)| *radius == at);
-        let along = degrees.filter(|(at, _)| !is_radius(*at));
+        let apart = Apart::of(dynamics);
+        let mut places = vec![[NOWHERE; N]; model.bodies.len()];
+        if apart.is_some() {
+            let all = places.as_flattened_mut().iter_mut().enumerate();
+            all.for_each(|(at, place)| *place = at);
+        } else {
+            for (at, (body, dof)) in dynamics.degrees().into_iter().enumerate() {
+                if let Some(Velocity { place, .. }) = Velocity::of(at, body, dof) {
+                    places[body.index()][place] = at;
+                }
+            }
+        }
         Box::new(Self {
             matrix: ContactMatrix::new(model, dynamics.rows_in_motion()),
-            corrected: along
-                .filter_map(|(at, (body, dof))| Velocity::of(at, body, dof))
-                .collect(),
-            radial: radii
-                .iter()
-                .map(|(at, ball)| Radial::new(*at, *ball))
-                .collect(),
+            places,
+            apart,
             full,
             state,
             rings: RingView::both(model).filter(|_| dynamics.tilts()),
@@ -278,39 +260,12 @@ impl<const N: usize> BodyMatrix<N> {
         self.matrix.find_elements(dynamics, &views);
         self.matrix.find_slopes(dynamics, &views, by.reach);
         self.matrix.factorise(dynamics, &views, by.gamma_h);
-        for radial in &mut self.radial {
-            radial.look(&self.state);
+        self.matrix.locate(&self.places);
+        if let Some(apart) = &mut self.apart {
+            apart.look(&self.state);
         }
         self.served = 0;
         self.relaxation = self.matrix.stiffest() / by.gamma_h;
-    }
-}
-
-impl Radial {
-    fn new(at: usize, ball: BodyId) -> Self {
-        Self {
-            at,
-            ball,
-            direction: [1.0, 0.0],
-        }
-    }
-
-    fn look(&mut self, state: &State) {
-        let [x, y] = Dof::SYMMETRIC.map(|dof| state.q.get(self.ball, dof));
-        let radius = x.hypot(y);
-        self.direction = [x / radius, y / radius];
-    }
-
-    fn put(&self, r: &[f64], body: &mut [f64]) {
-        // x and y stand first.
-        for (to, direction) in body.iter_mut().zip(self.direction) {
-            *to = r[self.at] * direction;
-        }
-    }
-
-    fn take(&self, body: &[f64], r: &mut [f64]) {
-        let along = body.iter().zip(self.direction);
-        r[self.at] = along.map(|(from, direction)| from * direction).sum();
     }
 }
 

@@ -9,8 +9,10 @@ use crate::base::pool;
 use crate::contact::AXIAL;
 use crate::dynamics::{Batch, Dynamics, Guarantees, View};
 use crate::model::{BodyId, DOFS, Dof, Model, Race};
-use crate::simd::{LANES, Lanes, Task};
+use crate::simd::{LANES, Lanes, Simd, Task, Wide};
 
+/// Place of a velocity that is not corrected.
+pub(super) const NOWHERE: usize = usize::MAX;
 /// Relative change of γh up to which a matrix serves on.
 const SAME: f64 = 0.2;
 
@@ -25,9 +27,10 @@ pub(super) struct ContactMatrix<const N: usize> {
     batches: Vec<HeldBalls<N>>,
     active: usize,
     arrow: Arrow<N>,
-    /// Residuals of all velocities, by body: along x, y and z, about z, and tilts of rings or turning about x and y of balls. After
-    /// [`ContactMatrix::correct`] their corrections.
-    pub residual: Vec<[f64; N]>,
+    /// Places of velocities among those that are corrected: of eight balls by their directions (along x, y and z, about z, and turning
+    /// about x and y), and of both rings by theirs (tilts in place of turning). [`NOWHERE`] where there is none.
+    places: Vec<[[usize; LANES]; N]>,
+    ring_places: [[usize; N]; 2],
     /// γh of the matrix, once there is one.
     kept: Option<f64>,
 }
@@ -47,7 +50,8 @@ impl<const N: usize> ContactMatrix<N> {
             batches: vec![HeldBalls::default(); eights],
             active: 0,
             arrow: Arrow::new(eights),
-            residual: vec![[0.0; N]; model.bodies.len()],
+            places: vec![[[NOWHERE; LANES]; N]; eights],
+            ring_places: [[NOWHERE; N]; 2],
             kept: None,
         }
     }
@@ -136,9 +140,24 @@ impl<const N: usize> ContactMatrix<N> {
         self.arrow.stiffest
     }
 
-    /// Solves for the correction of all velocities; `residual` is replaced by it. False if singular.
-    pub fn correct(&mut self, model: &Model) -> bool {
-        model.instructions.run(Correct { work: self })
+    /// Takes over where the velocities of bodies stand among those that are corrected.
+    pub fn locate(&mut self, places: &[[usize; N]]) {
+        self.ring_places = Race::BOTH.map(|race| places[race.ring().index()]);
+        for (eight, batch) in self.places.iter_mut().zip(&self.batches[..self.active]) {
+            for (i, lanes) in eight.iter_mut().enumerate() {
+                *lanes = batch
+                    .balls
+                    .map(|ball| places[BodyId::ball(ball).index()][i]);
+            }
+        }
+    }
+
+    /// Replaces residuals of velocities by their corrections; a singular matrix corrects nothing.
+    pub fn correct(&mut self, model: &Model, residual: &mut [f64]) {
+        model.instructions.run_wide(Correct {
+            work: self,
+            residual,
+        });
     }
 }
 
@@ -219,51 +238,61 @@ impl<const N: usize> Task for Factorise<'_, N> {
 /// Solves for the corrections.
 struct Correct<'a, const N: usize> {
     work: &'a mut ContactMatrix<N>,
+    residual: &'a mut [f64],
 }
 
-impl<const N: usize> Task for Correct<'_, N> {
-    type Output = bool;
+impl<const N: usize> Wide for Correct<'_, N> {
+    type Output = ();
 
     // Compiled for the instruction set that runs it.
     #[allow(clippy::inline_always)]
     #[inline(always)]
-    fn run<const FMA: bool>(self) -> bool {
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self { work, residual } = self;
         let ContactMatrix {
             arrow,
-            residual,
             batches,
             active,
+            places,
+            ring_places,
             ..
-        } = self.work;
+        } = work;
         let batches = &batches[..*active];
         arrow.begin_right();
-        for (eight, batch) in batches.iter().enumerate() {
+        for (eight, places) in places[..*active].iter().enumerate() {
             let mut right = [Lanes::ZERO; N];
-            for (lane, ball) in batch.balls.iter().enumerate() {
-                let residual = &residual[BodyId::ball(*ball)];
-                for i in 0..N {
-                    right[i][lane] = residual[i];
-                }
+            for (right, lanes) in right.iter_mut().zip(places) {
+                *right = Lanes::from_fn(|lane| there(residual, lanes[lane]));
             }
-            arrow.eliminate_right::<FMA>(eight, &right);
+            arrow.eliminate_right(simd, eight, &right);
         }
-        let right = Race::BOTH.map(|race| residual[race.ring()]);
+        let right = ring_places.map(|places| places.map(|at| there(residual, at)));
         let Some(rings) = arrow.rings(&right) else {
-            return false;
+            return;
         };
-        for race in Race::BOTH {
-            residual[race.ring()] = rings[race];
+        let mut put = |at: usize, correction: f64| {
+            if let Some(to) = residual.get_mut(at) {
+                *to = correction;
+            }
+        };
+        for (places, of) in ring_places.iter().zip(&rings) {
+            for (at, correction) in places.iter().zip(of) {
+                put(*at, *correction);
+            }
         }
         let seen = arrow.seen(&rings);
-        for (eight, batch) in batches.iter().enumerate() {
-            let balls = arrow.balls::<FMA>(eight, &seen);
-            for (lane, ball) in batch.balls[..batch.count].iter().enumerate() {
-                let residual = &mut residual[BodyId::ball(*ball)];
-                for i in 0..N {
-                    residual[i] = balls[i][lane];
+        for (eight, (places, batch)) in places.iter().zip(batches).enumerate() {
+            let balls = arrow.balls(simd, eight, &seen);
+            for (places, of) in places.iter().zip(&balls) {
+                for (at, correction) in places.iter().zip(of.numbers()).take(batch.count) {
+                    put(*at, *correction);
                 }
             }
         }
-        true
     }
+}
+
+/// The residual at a place, 0 where there is none.
+fn there(residual: &[f64], at: usize) -> f64 {
+    residual.get(at).copied().unwrap_or(0.0)
 }

@@ -4,10 +4,11 @@
 //! model. The matrix is an arrow (`arrow.rs`) of a 4×4 block a ball and 8×8 for the rings, or 6×6 and 12×12 where rings tilt or balls spin
 //! freely; cage links and coupled supports are not in it: their damping is slow. Nor are gyroscopic moments of the rings.
 
+mod apart;
 mod arrow;
 mod carrier;
-mod factors;
 mod held_balls;
+mod inverse;
 mod linear;
 mod matrix;
 
