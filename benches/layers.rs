@@ -12,8 +12,8 @@ use ballrace::dynamics::Dynamics;
 use ballrace::inspect;
 use ballrace::integrate::{DORMAND_PRINCE, Options, System, Tolerance, integrate};
 use ballrace::scene::{
-    Defect, Friction, Lubricant, Mount, NormalLaw, Pit, Scene, Slices, Surface, TimeFunction,
-    presets,
+    Defect, Friction, Lubricant, Mount, NormalLaw, Patch, Pit, Scene, Slices, Surface,
+    TimeFunction, presets,
 };
 use ballrace::{Model, Race, Run, Start, equilibrium, load_distribution, simulate, start};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
@@ -277,6 +277,39 @@ fn run(c: &mut Criterion) {
 }
 
 /// Scene compiled and solved at rest.
+/// A millisecond of a spalled 6205, and what a step of two of its balls by themselves would take of it: the contacts of a
+/// bearing of three, by eights and with one over the spall. A matrix of their own would come on top.
+fn sub_steps(c: &mut Criterion) {
+    let mut group = c.benchmark_group("sub-steps");
+    let mut scene = presets::deep_groove_6205(500.0, 0.0, 1797.0);
+    let settings = Run {
+        duration: 1e-3,
+        settle: Some(0.0),
+        threads: 1,
+        ..Run::default()
+    };
+    let spall = Patch::of_width(0.5e-3).length(3e-3).edge_radius(30e-6);
+    let spall = Defect::of(spall, Surface::OuterRace, scene.rows[0].start_angle);
+    scene.defects.insert("spall".to_owned(), spall);
+    let steps = simulate(&scene, &settings).unwrap().stats.nfev;
+    group.bench_function(format!("a run of {steps} evaluations"), |b| {
+        b.iter(|| simulate(black_box(&scene), &settings).unwrap());
+    });
+    scene.rows[0].ball_count = 3;
+    let mut whole = scene.clone();
+    whole.defects.clear();
+    for (name, scene) in [("three balls", whole), ("one over the spall", scene)] {
+        let model = compile(&scene).unwrap();
+        let y = start(&model, &Start::Rolling).unwrap();
+        let mut dynamics = Dynamics::new(&model);
+        let mut dy = vec![0.0; model.dim()];
+        group.bench_function(name, |b| {
+            b.iter(|| dynamics.rhs(0.0, black_box(&y), &mut dy));
+        });
+    }
+    group.finish();
+}
+
 fn statics(c: &mut Criterion) {
     let mut group = c.benchmark_group("statics");
     for (name, scene) in [
@@ -304,6 +337,7 @@ criterion_group!(
     threads,
     integrator,
     run,
+    sub_steps,
     statics
 );
 criterion_main!(layers);
