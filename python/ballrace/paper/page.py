@@ -41,7 +41,8 @@ def page(paper: Paper) -> str:
         f"outer ring. {len(paper.table) - len(missed)} of {len(paper.table)} statements are met"
         f"{', missed: ' + '; '.join(missed) if missed else ''}. The paper gives balls, speed, loads and the "
         "size of the defect. Geometry, clearance, masses, damping and the defect's axial place were identified "
-        "from its results. At -3 kN the motion is chaotic: other starts have other impacts."
+        "from its results. At -3 kN the motion is chaotic: other starts have other impacts, and what one start "
+        "misses the median of eight may meet."
     )
     made.text(
         "Accelerations are cut off in the first milliseconds; forces are those at "
