@@ -9,8 +9,8 @@ use std::array::from_fn;
 
 use nalgebra::SMatrix;
 
-use super::carrier::{Carrier, LaneMatrix, RingRotation};
-use super::inverse::{OnBothRings, inverse};
+use super::carrier::{Carrier, RingRotation};
+use super::matrices::{LaneMatrix, OnBothRings, added, inverse, invert, product};
 use crate::contact::AXIAL;
 use crate::simd::{LANES, Lanes, Simd, Vector};
 
@@ -248,37 +248,6 @@ impl<const N: usize> Arrow<N> {
     }
 }
 
-/// A matrix times a vector, in the lanes of a register from one of them on. Loops, since closures are not compiled for the register's
-/// instructions where the compiler does not take them in.
-#[inline(always)]
-fn product<S: Simd, const N: usize>(
-    simd: S,
-    at: usize,
-    a: &LaneMatrix<N>,
-    x: &[Lanes; N],
-) -> [Vector<S>; N] {
-    let mut product = [Vector::all(simd, 0.0); N];
-    for k in 0..N {
-        let x = Vector::load(simd, &x[k].numbers()[at..]);
-        for i in 0..N {
-            let a = Vector::load(simd, &a[i][k].numbers()[at..]);
-            product[i] = a.mul_add(x, product[i]);
-        }
-    }
-    product
-}
-
-/// A vector and a matrix times another, column by column: of six directions nalgebra makes blocks for large matrices.
-#[inline(always)]
-fn added<const N: usize>(mut to: [f64; N], a: &SMatrix<f64, N, N>, x: &[f64; N]) -> [f64; N] {
-    for (j, x) in x.iter().enumerate() {
-        for i in 0..N {
-            to[i] += a[(i, j)] * x;
-        }
-    }
-    to
-}
-
 /// A row times T: a ring that turns about an axis e moves what stands at a by e × a.
 #[inline(always)]
 fn carried<const FMA: bool, const N: usize>(row: &[Lanes; N], a: &[Lanes; 3]) -> [Lanes; N] {
@@ -313,27 +282,6 @@ fn carried_back<const FMA: bool, const N: usize>(
         }
     }
     carried
-}
-
-/// Replaces a matrix by its inverse (Gauss and Jordan).
-///
-/// There is no pivoting: 1 − D S is the unit matrix and what friction and damping add to its definite side.
-#[inline(always)]
-fn invert<const FMA: bool, const N: usize>(a: &mut LaneMatrix<N>) {
-    for k in 0..N {
-        let inverse = Lanes::all(1.0) / a[k][k];
-        a[k][k] = Lanes::all(1.0);
-        for j in 0..N {
-            a[k][j] = a[k][j] * inverse;
-        }
-        for i in (0..N).filter(|&i| i != k) {
-            let factor = -a[i][k];
-            a[i][k] = Lanes::ZERO;
-            for j in 0..N {
-                a[i][j] = factor.mul_add::<FMA>(a[k][j], a[i][j]);
-            }
-        }
-    }
 }
 
 /// The truth is the residual of the written-out system.

@@ -10,14 +10,12 @@
 
 use nalgebra::{SMatrix, Vector3};
 
+use super::matrices::LaneMatrix;
 use crate::contact::AXIAL;
 use crate::dynamics::{RingView, View, turning_accelerations};
 use crate::model::{DOFS, Degree, Dof, Model, Race};
 use crate::simd::Lanes;
 use crate::tilt::{Frame, Rotation};
-
-/// A matrix for each of eight balls, of which a row is a direction of the ball.
-pub(super) type LaneMatrix<const N: usize> = [[Lanes; N]; N];
 
 /// Offsets of directions along x, y and z: of forces, and of moments about them.
 const ALONG: [usize; 3] = [0, 1, 2];

@@ -8,8 +8,8 @@ mod apart;
 mod arrow;
 mod carrier;
 mod held_balls;
-mod inverse;
 mod linear;
+mod matrices;
 mod matrix;
 
 pub(crate) use linear::Damped;

@@ -207,7 +207,8 @@ fn an_unbalanced_cage_whirls_on_its_land() {
         }),
     );
     scene.gravity = [0.0; 3];
-    let out = over(&scene, turns(4.0), turns(2.0));
+    // The pockets push the centre ahead and back by some 0.15 rad.
+    let out = over(&scene, turns(12.0), turns(2.0));
     let of = |name: &str| out.get(name).unwrap();
     let (x, y, turned) = (of("cage.x"), of("cage.y"), of("cage.angle"));
     let (mut whirled, mut radius) = (0.0, 0.0);

@@ -226,7 +226,7 @@ fn each_row_has_as_many_nodes_as_it_asks_for() {
         .collect();
     let [a, b, c] = [
         "6 nodes, ISO law",
-        "6 nodes, Hertz's law",
+        "7 nodes, Hertz law",
         "40 slices, ISO law",
     ];
     assert_eq!(evaluations, [a, a, b, b, c, c]);
