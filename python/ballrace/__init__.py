@@ -65,7 +65,7 @@ _MOVED = {
 if TYPE_CHECKING:
     from . import diagnosis, learn, machines, measuring, plot, spectra
     from ._results.features import features
-    from .bearings import Bearing, Pedestal, bearing, catalogue
+    from .bearings import Bearing, bearing, catalogue
     from .campaigns import Campaign, campaign, grid, latin_hypercube, scatter, sobol
     from .channel import Channel
     from .datasets import bearing_split, read_bearing_dataset
@@ -94,7 +94,7 @@ else:
         __name__,
         {
             "_results.features": ("features",),
-            "bearings": ("Bearing", "Pedestal", "bearing", "catalogue"),
+            "bearings": ("Bearing", "bearing", "catalogue"),
             "campaigns": ("Campaign", "campaign", "grid", "latin_hypercube", "scatter", "sobol"),
             "channel": ("Channel",),
             "datasets": ("bearing_split", "read_bearing_dataset"),
@@ -148,7 +148,6 @@ __all__ = [
     "MemoryLimitError",
     "Mode",
     "Model",
-    "Pedestal",
     "Recording",
     "RingForce",
     "Run",

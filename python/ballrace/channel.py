@@ -27,6 +27,8 @@ from .errors import SceneError
 from .scene import Scene
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from numpy.typing import ArrayLike
 
 
@@ -126,6 +128,19 @@ class Channel:
         return replace(self, x=x, unit=canonical(unit))
 
 
+def default_column(names: Iterable[str]) -> str:
+    """Return the column that stands for a record: of a structure's sensor, else the outer ring, else the first.
+
+    Examples
+    --------
+    >>> default_column(["inner.ay", "outer.ay"]), default_column(["outer.ay", "housing.sensor.ay"])
+    ('outer.ay', 'housing.sensor.ay')
+    """
+    names = list(names)
+    sensed = [name for name in names if name.startswith("housing.") and name.endswith(".ay")]
+    return (sensed or [name for name in names if name == "outer.ay"] or names)[0]
+
+
 @runtime_checkable
 class Recorded(Protocol):
     """Interface that runs, measurements, recordings and channels share."""
@@ -135,7 +150,7 @@ class Recorded(Protocol):
         """Sampling rate [Hz]."""
 
     def channel(self, name: str | None = None) -> Channel:
-        """Return one signal; by default ``outer.ay`` if there is one, else the first."""
+        """Return one signal; by default that of a structure's sensor, else ``outer.ay``, else the first."""
 
 
 def channel_of(

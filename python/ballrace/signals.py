@@ -302,7 +302,7 @@ class Signals(Columns):
         path : str or path
             File to write, ``.html``; one of the same name is replaced.
         columns : sequence of str, optional
-            Columns that are shown; by default ``outer.ay`` if it was recorded.
+            Columns that are shown; by default one acceleration, of a sensor before that of the outer ring.
         title : str, optional
             Title of the page; by default the scene's name.
 

@@ -13,7 +13,7 @@
 ``sources``    where each number of a row comes from
 ``estimate``   a bearing of which bore, outside diameter and width are known
 ``clearance``  the classes of ISO 5753
-``pedestal``   the housing that the outer ring sits in
+``pedestal``   the machine around the outer ring, a structure with modes
 ``build``      a scene of a bearing: clearance, loads, supports
 ``filled``     what all such scenes have: friction, cage, drive, probes
 ``fits``       classes of ISO 286, and interferences after Lamé
@@ -36,7 +36,6 @@ from .entry import Bearing, Uncertainty
 from .fits import Seat
 from .heat import OperatingClearance, Temperatures, operating_clearance, steady_temperatures
 from .names import Name
-from .pedestal import Pedestal
 from .rows import Catalogue, catalogue
 
 __all__ = [
@@ -44,7 +43,6 @@ __all__ = [
     "Catalogue",
     "Name",
     "OperatingClearance",
-    "Pedestal",
     "Seat",
     "Temperatures",
     "Uncertainty",

@@ -13,19 +13,34 @@ from ..scene import Defect, Load, Lubricant, Ring, Row, Scene, Spring, Structure
 from .clearance import radial_clearance
 from .entry import Bearing
 from .filled import filled
-from .pedestal import Pedestal, chosen_housing
+from .pedestal import chosen_housing
 from .rows import catalogue
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-__all__ = ["OUTER", "asked_clearance", "bearing", "metal", "rows_of"]
+__all__ = [
+    "OUTER",
+    "OUTER_RING",
+    "SEAT_DAMPING",
+    "SEAT_STIFFNESS",
+    "asked_clearance",
+    "bearing",
+    "metal",
+    "rows_of",
+]
 
 _HALF_THE_BALLS = 1.22
 """Thrust over Fr tan α with which half of the balls carry (Sjövall's integrals at ε = 0.5)."""
 
 _OF_6205 = (52e-3**2 - 39.04e-3**2) * 15e-3
 """Metal of the outer ring of a 6205, but for a factor [m³]."""
+
+SEAT_STIFFNESS, SEAT_DAMPING = 1e8, 300.0
+"""Spring and damper between the outer ring of a 6205 and its seat [N/m, N s/m]."""
+
+OUTER_RING = 0.064
+"""Mass of the outer ring of a 6205 [kg]."""
 
 _ROW_DISTANCE = 1.08
 """Distance of two rows over the ball diameter: 1.03 to 1.18, by the load centres that NSK prints of 52 and 53."""
@@ -60,15 +75,16 @@ def bearing(
     defects: Defect | Mapping[str, Defect] | None = None,
     lubricant: str | Lubricant | None = None,
     temperature_c: float | None = None,
-    housing: Literal["pedestal"] | Pedestal | Structure | None = "pedestal",
+    housing: Literal["pedestal"] | Structure | None = "pedestal",
     texture: Texture | None = None,
 ) -> Scene:
     """Return a scene of a bearing of the catalogue, ready to run.
 
     The scene has Hertz's law, Coulomb friction, a steel cage with pockets, balls that spin about any
     axis where that changes orbit speed or a load at rest by more than 0.2 % (else about the bearing's), the inner
-    ring on a shaft (1 kg in a 6205, damped, held by the balls only), the outer ring in a housing, one mass with
-    it, on a mount, and probes of the motion of both rings. All of this can be changed by
+    ring on a shaft (1 kg in a 6205, damped, held by the balls only), the outer ring on a stiff spring on the seat
+    of a pedestal that vibrates, and probes of the motion of both rings, of the pedestal's sensor
+    (``housing.sensor.ay``) and of the force on its seat. All of this can be changed by
     :meth:`ballrace.Scene.replace`.
 
     Parameters
@@ -98,15 +114,13 @@ def bearing(
         Oil by its name (:func:`ballrace.lubricants`) or its numbers; by default the contacts are dry.
     temperature_c : float, optional
         Temperature of an oil by name where it enters the contacts [°C].
-    housing : {"pedestal"}, Pedestal, Structure or None
-        Housing of the outer ring, one mass with it. ``"pedestal"``: a cast pillow block of 0.8 kg for an outside
-        diameter of 52 mm (a unit UCP205 of makers' catalogues), which grows with the cube of the diameter, an
-        approximation (4.1 kg for 90 mm, where a UCP210 has some 2.7), on a mount of 1 kHz and a damping ratio of
-        3 %, both chosen. In a 6205 it vibrates in phase with the shaft at 0.65 kHz, and in antiphase on the loaded
-        balls at 1.7 kHz (100 N) to 2.7 kHz (1500 N). A :class:`ballrace.Pedestal`: another housing. A
-        :class:`ballrace.Structure`: the ring stands on its seat, and its sensors are recorded. None: the ring
-        alone on a stiff spring (near 5 kHz, damped at 5 %, whatever the size), as in
-        :func:`ballrace.presets.deep_groove_6205`.
+    housing : {"pedestal"}, Structure or None
+        What the outer ring stands on, by a spring of 100 N/µm in a 6205. ``"pedestal"``: a casting on bolts and a
+        plate, with ten modes from 0.7 to 12 kHz in a 6205 after measured spectra, and an accelerometer on top, the
+        column ``housing.sensor.ay``. Its masses grow with the cube of the outside diameter, and its walls'
+        frequencies fall with it, an assumption; levels are orders of magnitude. A
+        :class:`ballrace.Structure`: another machine, by its modes. None: the spring ends on the ground (near
+        5 kHz, damped at 5 %, whatever the size), as in :func:`ballrace.presets.deep_groove_6205`.
     texture : Texture, optional
         Texture of races and balls; by default they are smooth.
 
@@ -141,10 +155,10 @@ def bearing(
     return filled(
         name=made.designation,
         rows=rows,
-        outer_ring=_outer(made, around, size),
-        structure=around if isinstance(around, Structure) else None,
+        outer_ring=_ring(made.outside_diameter, made, SEAT_STIFFNESS * size, SEAT_DAMPING * size),
+        structure=around,
         # With 1 kg of shaft in a 6205, damped by its surroundings.
-        inner_ring=_ring(made.bore, made, 0.0, 300.0 * size, 1.0 * size),
+        inner_ring=_ring(made.bore, made, 0.0, 300.0 * size, mass=1.0 * size),
         loads={
             "radial": Load(ring="inner", direction=(0.0, -1.0, 0.0), force=radial),
             "axial": Load(ring="inner", direction=(0.0, 0.0, 1.0), force=axial),
@@ -206,15 +220,8 @@ def metal(made: Bearing) -> float:
     return (made.outside_diameter**2 - made.pitch_diameter**2) * made.width / _OF_6205
 
 
-def _outer(made: Bearing, housing: Pedestal | Structure | None, size: float) -> Ring:
-    """Return the outer ring in its housing, or alone on its seat."""
-    if housing is None or isinstance(housing, Structure):
-        return _ring(made.outside_diameter, made, 1e8 * size, 300.0 * size, None)
-    return _ring(made.outside_diameter, made, housing.stiffness, housing.damping, housing.mass)
-
-
 def _ring(
-    diameter: float, made: Bearing, stiffness: float, damping: float, mass: float | None
+    diameter: float, made: Bearing, stiffness: float, damping: float, mass: float | None = None
 ) -> Ring:
     held = Spring(stiffness=stiffness, damping=damping)
     support = Support(x=held, y=held, z=held)

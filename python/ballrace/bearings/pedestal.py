@@ -1,81 +1,76 @@
-"""The housing of the outer ring: a mass on a mount, part of the dynamics."""
+"""The machine around the outer ring where a scene does not give its own: a pedestal with modes."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from .._base.numbers import positive
+import numpy as np
+
 from ..errors import SceneError
-from ..scene import Structure
+from ..scene import Mode, Structure
 
-__all__ = ["Pedestal"]
+if TYPE_CHECKING:
+    from ..scene import Compliance
 
-_MASS, _DIAMETER = 0.8, 52e-3
-"""Mass of a pillow block unit UCP205 [kg], and outside diameter of its bearing [m]."""
-_FREQUENCY = 1000.0
-"""Natural frequency of the housing on its mount [Hz]."""
-_DAMPING_RATIO = 0.03
+__all__ = ["chosen_housing", "pedestal"]
+
+_DIAMETER = 52e-3
+"""Outside diameter of the bearing that the table is for [m]."""
+
+_HIGHEST = 15_000.0
+"""Highest frequency of a mode that moves of its own [Hz]; of those above only the compliance is left."""
+
+_Shape = tuple[float, float, float]
+_Line = tuple[float, float, float, _Shape, _Shape]
+
+_FEET: tuple[_Line, ...] = (
+    (700.0, 0.06, 2.5, (0.0, 0.0, 1.0), (0.0, 0.0, 1.0)),  # rocking along the shaft
+    (900.0, 0.06, 3.0, (1.0, 0.0, 0.0), (1.0, 0.0, 0.0)),  # rocking across it
+    (1200.0, 0.06, 3.0, (0.0, 1.0, 0.0), (0.0, 1.0, 0.0)),  # up and down on its plate
+    (1850.0, 0.06, 2.0, (0.3, 0.7, 0.0), (-0.3, -1.0, 0.0)),  # plate against casting
+)
+"""Frequency [Hz], damping ratio, modal mass [kg], shapes at seat and sensor: a casting on bolts and a plate."""
+_WALLS: tuple[_Line, ...] = (
+    (
+        2700.0,
+        0.035,
+        0.50,
+        (0.08, 0.08, 0.0),
+        (0.5, 1.0, 0.5),
+    ),  # the cap, which hardly moves the seat
+    (4800.0, 0.035, 0.28, (0.15, 0.5, 0.0), (-0.5, -1.0, -0.5)),
+    (6100.0, 0.035, 0.22, (-0.15, 0.3, 0.0), (-0.5, 1.0, 0.5)),
+    (7500.0, 0.035, 0.18, (0.15, 0.5, 0.0), (-0.5, -1.0, 0.5)),
+    (9800.0, 0.035, 0.135, (-0.15, 0.5, 0.0), (-0.5, 1.0, 0.5)),
+    (12_000.0, 0.035, 0.11, (0.15, 0.5, 0.0), (-0.5, -1.0, 0.5)),
+)
+"""The same of the casting's walls between seat and sensor, whose masses go with one over their frequencies."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class Pedestal:
-    """A housing with the outer ring in it, as one mass on a mount that is alike in x, y and z.
+def pedestal(outside_diameter: float, count: float = 1.0) -> Structure:
+    """Return a cast pedestal with what it stands on, for an outside diameter [m], or so many side by side as one.
 
-    It takes part in the dynamics: the balls push it, and the probe ``outer`` records its motion. A
-    :class:`ballrace.measuring.Housing` is something else: the transfer of a run's acceleration from the ring to a
-    sensor, applied afterwards.
+    The frequencies are peaks of spectra that were measured on a pedestal with a 6205 (HIT-SM), with the damping
+    ratios and masses that come nearest to its records. The masses are not identified: with all of them doubled or
+    halved the records are met as well, so levels are orders of magnitude. The walls shake the seat in its plane
+    alone: what an inner race's spall sends along the axis is otherwise spread over all of them.
 
-    Attributes
-    ----------
-    mass : float
-        Mass of the housing and the outer ring together [kg], above 0.
-    stiffness : float
-        Stiffness of the mount [N/m], above 0.
-    damping : float
-        Damping of the mount [N s/m], from 0; ``2 ζ sqrt(stiffness * mass)`` with a damping ratio ζ.
-
-    Raises
-    ------
-    SceneError
-        A number is not usable; it names ``housing.mass`` and so on.
-
-    Examples
-    --------
-    >>> import ballrace as br
-    >>> stiff = br.Pedestal(mass=3.0, stiffness=1.2e8, damping=1100.0)  # 1 kHz, 3 %
-    >>> br.bearing("6205", housing=stiff, speed_rpm=1800.0).outer_ring.mass
-    3.0
+    Sizes are an assumption: bodies of one shape, whose masses grow with the cube of the diameter and whose walls'
+    frequencies fall with it, on bolts and a plate whose frequencies stay.
     """
-
-    mass: float
-    stiffness: float
-    damping: float
-
-    def __post_init__(self) -> None:
-        for name, unit in (("mass", "kg"), ("stiffness", "N/m"), ("damping", "N s/m")):
-            value = getattr(self, name)
-            positive(f"housing.{name}", value, unit, zero=name == "damping")
+    size = outside_diameter / _DIAMETER
+    mass = size**3 * count
+    walls = [(line[0] / size, *line[1:]) for line in _WALLS]
+    modes = [_mode(each, mass) for each in (*_FEET, *walls) if each[0] <= _HIGHEST]
+    left_out = [_mode(each, mass) for each in walls if each[0] > _HIGHEST]
+    return Structure(modes=tuple(modes), static_compliance=_compliance(left_out))
 
 
-def pillow_block(outside_diameter: float) -> Pedestal:
-    """Return a cast pillow block for an outside diameter [m], and what it stands on.
-
-    Makers' catalogues give 0.8 kg for a unit UCP205 (52 mm), housing and bearing together. The mass here is
-    that with the cube of the diameter, as of bodies of one shape, which is an approximation: units grow more
-    slowly. A UCP210 (90 mm) has some 2.7 kg in catalogues, and 3.0 by its length, height and width (206 x 113 x
-    60 mm beside 140 x 70 x 38); the cube gives 4.1. The mount is a choice, not a measurement: 1 kHz, and a
-    damping ratio of 3 %.
-    """
-    mass = _MASS * (outside_diameter / _DIAMETER) ** 3
-    omega = 2.0 * math.pi * _FREQUENCY
-    return Pedestal(
-        mass=mass, stiffness=mass * omega**2, damping=2.0 * _DAMPING_RATIO * mass * omega
-    )
-
-
-def chosen_housing(housing: object, outside_diameter: float) -> Pedestal | Structure | None:
-    """Return the housing that is asked for; None: the bare ring.
+def chosen_housing(
+    housing: object, outside_diameter: float, count: float = 1.0
+) -> Structure | None:
+    """Return the structure that is asked for; None: the ring on a stiff spring.
 
     Raises
     ------
@@ -83,12 +78,31 @@ def chosen_housing(housing: object, outside_diameter: float) -> Pedestal | Struc
         It is none.
     """
     if isinstance(housing, str) and housing == "pedestal":
-        return pillow_block(outside_diameter)
-    if housing is None or isinstance(housing, Pedestal | Structure):
+        return pedestal(outside_diameter, count)
+    if housing is None or isinstance(housing, Structure):
         return housing
     allowed = (
-        '"pedestal", None (the bare ring), a br.Pedestal(mass=…, stiffness=…, damping=…) or a '
-        "br.Structure(modes=[br.Mode(…), …]); what lies between ring and sensor, as in br.measuring.Housing, "
-        "belongs to br.measuring.Chain"
+        '"pedestal", None (the bare ring) or a br.Structure(modes=[br.Mode(…), …]); what lies between it and '
+        "a record belongs to br.measuring.Chain"
     )
     raise SceneError("housing", repr(housing), allowed)
+
+
+def _mode(line: _Line, mass: float) -> Mode:
+    """Return a mode by a line of a table, with so many times its mass."""
+    frequency, damping, own, seat, sensor = line
+    return Mode(
+        frequency=frequency, damping=damping, mass=own * mass, seat=seat, sensors={"sensor": sensor}
+    )
+
+
+def _compliance(modes: list[Mode]) -> Compliance | None:
+    """Return what modes give at the seat under a static force, Σ Φ Φᵀ / (m ω²) [m/N]."""
+    if not modes:
+        return None
+    total = np.zeros((3, 3))
+    for mode in modes:
+        omega = 2.0 * math.pi * mode.frequency
+        total += np.outer(mode.seat, mode.seat) / (mode.mass * omega**2)
+    (xx, xy, xz), (_, yy, yz), (*_, zz) = total.tolist()
+    return (xx, xy, xz), (xy, yy, yz), (xz, yz, zz)

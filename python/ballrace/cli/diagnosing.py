@@ -49,7 +49,7 @@ def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:
     found.add_argument(
         "--channel",
         metavar="NAME",
-        help="column (default: outer.ay if there is one, else the first)",
+        help="column (default: a structure's sensor, else outer.ay, else the first)",
     )
     found.add_argument(
         "--unit",

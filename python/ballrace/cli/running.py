@@ -85,8 +85,8 @@ def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:
     add_speeds(scene, "1800", _OF_CATALOGUE)
     scene.add_argument(
         "--housing", choices=("pedestal", "none"),
-        help="what the outer ring of a bearing of the catalogue sits in: a pillow block of its size on a mount of "
-        "1 kHz, or nothing, the bare ring near 5 kHz (default: pedestal); any other is outer_ring of the scene",
+        help="what the outer ring of a bearing of the catalogue stands on: a pedestal of its size, or the ground, "
+        "near 5 kHz (default: pedestal); any other is the structure of the scene",
     )  # fmt: skip
 
 

@@ -68,7 +68,7 @@ def _add_spectrum(commands: Commands[argparse.ArgumentParser]) -> None:
     )  # fmt: skip
     add_signals(spectrum)
     spectrum.add_argument(
-        "--column", help="column (default: outer.ay if there is one, else the first)"
+        "--column", help="column (default: a structure's sensor, else outer.ay, else the first)"
     )
     spectrum.add_argument(
         "--band",

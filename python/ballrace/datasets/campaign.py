@@ -86,7 +86,7 @@ def _of_sensors(
         own = {
             "recording_id": f"{line.case_id}_{line.chain}", "channel": "sensor", "fs": found.fs,
             "axis": axis_of(found.chain.direction), "quantity": "acceleration", "unit": found.unit,
-            "sensor_mounting": "outer_ring" if found.chain.housing is None else "pedestal",
+            "sensor_mounting": "pedestal" if found.chain.housing or line.scene.structure else "outer_ring",
         }  # fmt: skip
         yield own | row_of(line.scene, case, found.start + 0.5 * found.x.size / found.fs), found.x
 
@@ -98,20 +98,24 @@ def _of_rings(done: Campaign, cases: dict[str, dict[str, Any]], scenes: dict[str
         for name, axis in _columns(scene):
             own = {
                 "recording_id": case_id, "channel": name, "fs": out.fs, "axis": axis,
-                "quantity": "acceleration", "unit": "m/s^2", "sensor_mounting": "outer_ring",
+                "quantity": "acceleration", "unit": "m/s^2",
+                "sensor_mounting": "pedestal" if name.startswith("housing.") else "outer_ring",
             }  # fmt: skip
             if name in out:
                 yield own | shared, out[name]
 
 
 def _columns(scene: Scene) -> list[tuple[str, str]]:
-    """Return the columns with accelerations of the outer ring, and their axes."""
-    rings = [
+    """Return the columns with accelerations of a structure's sensors, else of the outer ring, and their axes."""
+    sensors = () if scene.structure is None else scene.structure.sensors
+    points = [f"housing.{sensor}" for sensor in sensors] or [
         name
         for name, probe in scene.probes.items()
         if isinstance(probe, MotionProbe) and probe.body == "outer"
     ]
-    return [(f"{ring}.a{x}", axis) for ring in rings for x, axis in zip("xyz", AXES, strict=True)]
+    return [
+        (f"{point}.a{x}", axis) for point in points for x, axis in zip("xyz", AXES, strict=True)
+    ]
 
 
 def _hash(scene: Scene) -> str:

@@ -101,7 +101,7 @@ def diagnose(
     fs : float, optional
         Sampling rate of an array [Hz].
     column : str, optional
-        Column of a record; by default ``outer.ay`` if there is one, else the first.
+        Column of a record; by default as of :meth:`ballrace.Recording.channel`.
     unit : {"m/s^2", "g"}, optional
         Unit, where the record has none, such as an array. Without one the strength of lines is not judged.
     row : int, optional

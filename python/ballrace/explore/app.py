@@ -198,7 +198,7 @@ def panel(how, knob_elements, mo, name_elements, said, size_elements, trouble, w
         mo.md("# ballrace explore"), how, *by[how.value], said(what) if trouble is None else trouble,
         *of("radial_load", "axial_load", "moment", "speed_rpm", "outer_rpm", "clearance", "oil", "temperature_c"),
         mo.hstack(of("damage", "on"), justify="start", wrap=True),
-        *of("width_mm", "angle_deg", "housing_mass", "housing_frequency", "noise"),
+        *of("width_mm", "angle_deg", "housing_mass", "noise"),
     ])  # fmt: skip
 
 

@@ -110,14 +110,8 @@ def _clearance(begun: Settings) -> Control | None:
 
 
 def _mount(begun: Settings) -> tuple[Control | None, ...]:
-    mass, frequency = begun.housing_mass, begun.housing_frequency
-    if mass is None or frequency is None:
-        return ()
-    most = _round_up(10.0 * mass)
-    return (
-        _given("housing_mass", "housing: mass / kg", (2e-3 * most, most, 1e-3 * most), mass),
-        _given("housing_frequency", "housing: mount / Hz", (50.0, 8000.0, 10.0), frequency),
-    )
+    mass = begun.housing_mass
+    return (_given("housing_mass", "housing: masses, times", (0.1, 10.0, 0.1), mass),)
 
 
 def _given(field: str, label: str, steps: _Steps, value: float | None) -> Control | None:

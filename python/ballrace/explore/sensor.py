@@ -17,10 +17,7 @@ if TYPE_CHECKING:
     from ..frequencies.operating import FaultFrequencies
     from ..signals import Signals
 
-__all__ = ["COLUMN", "envelope", "orders", "rates_of", "sensed", "sound", "waveform"]
-
-COLUMN = "outer.ay"
-"""The signal that the page shows."""
+__all__ = ["envelope", "orders", "rates_of", "sensed", "sound", "waveform"]
 
 _FADE = 0.01
 """Time over which a sound rises and falls, so that it does not click [s]."""
@@ -30,7 +27,7 @@ _PEAK = 0.9
 
 
 def sensed(out: Signals, noise: float = 0.0) -> Channel:
-    """Return the outer ring's acceleration with white noise of the sensor, by its root mean square [m/s²]."""
+    """Return what a sensor measures, else the outer ring's acceleration, in white noise of an rms [m/s²]."""
     density = noise**2 / (0.5 * out.fs)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")

@@ -14,7 +14,7 @@ from ..scene.defect import SURFACES
 from ..scene.lubricant import chosen
 
 if TYPE_CHECKING:
-    from ..scene import Defect, Ring, Support
+    from ..scene import Defect, Support
 
 __all__ = ["DAMAGE", "SURFACES", "Settings", "outer_speed_of", "speed_of"]
 
@@ -62,8 +62,8 @@ class Settings:
         Its extent along the rolling direction [mm].
     angle_deg : float
         Its place, counter-clockwise from +x [°]; -90 is where a load along -y presses on the outer race.
-    housing_mass, housing_frequency : float or None
-        Mass of the outer ring with its housing [kg], and frequency of the mount [Hz]; None: no such housing.
+    housing_mass : float or None
+        Masses of the modes of the structure over those of the scene; None: it has no structure.
     noise : float
         Root mean square of white noise of the sensor [m/s²].
     """
@@ -82,13 +82,11 @@ class Settings:
     width_mm: float = 1.0
     angle_deg: float = -90.0
     housing_mass: float | None = None
-    housing_frequency: float | None = None
     noise: float = 0.0
 
     @classmethod
     def of(cls, scene: Scene) -> Settings:
         """Return the settings of a scene as it is."""
-        mass, frequency = _mount(scene.outer_ring)
         oil = scene.lubricant
         temperature = cls.temperature_c if oil is None else oil.temperature + _ABSOLUTE_ZERO
         return cls(
@@ -99,8 +97,7 @@ class Settings:
             outer_rpm=outer_speed_of(scene),
             clearance=scene.rows[0].clearance if _has_clearance(scene) else None,
             oil=None if oil is None else oil.oil,
-            housing_mass=mass,
-            housing_frequency=frequency,
+            housing_mass=None if scene.structure is None else 1.0,
             temperature_c=temperature,
         )
 
@@ -194,38 +191,14 @@ def _made(of: Settings) -> Defect:
 
 
 def _housing(of: Settings, moved: set[str]) -> dict[str, Any]:
-    """Keep the damping ratio of the mount whatever its mass and frequency."""
-    if not moved & {"housing_mass", "housing_frequency"}:
+    """Make all modes of the structure heavier or lighter, at their frequencies."""
+    if "housing_mass" not in moved:
         return {}
-    mass, frequency = of.housing_mass, of.housing_frequency
-    before = _mount(of.base.outer_ring)
-    if None in (mass, frequency, *before):
-        raise SceneError(
-            "housing_mass", repr(mass), "None, since the outer ring has no mass on a spring"
-        )
-    assert mass is not None
-    assert frequency is not None
-    support = of.base.outer_ring.support
-    ratio = mass * frequency / (before[0] * before[1])  # type: ignore[operator]
-    # A power would raise an error of its own where this is too large.
-    rate = 2.0 * math.pi * frequency
-    stiffness = mass * rate * rate
-    changes: dict[str, Any] = {"outer_ring.mass": mass}
-    for axis in "xyz":
-        held = getattr(support, axis)
-        if isinstance(held, Spring):
-            changes[f"outer_ring.support.{axis}"] = Spring(
-                stiffness=stiffness, damping=ratio * held.damping
-            )
-    return changes
-
-
-def _mount(ring: Ring) -> tuple[float | None, float | None]:
-    """Return mass and frequency of a ring on a spring along y [kg, Hz]."""
-    held = ring.support.y
-    if ring.mass is None or not isinstance(held, Spring) or held.stiffness <= 0.0:
-        return None, None
-    return ring.mass, math.sqrt(held.stiffness / ring.mass) / (2.0 * math.pi)
+    structure, factor = of.base.structure, of.housing_mass
+    if structure is None or factor is None:
+        raise SceneError("housing_mass", repr(factor), "None, since the scene has no structure")
+    modes = enumerate(structure.modes)
+    return {f"structure.modes[{k}].mass": factor * mode.mass for k, mode in modes}
 
 
 def _load(scene: Scene, *, along: bool) -> str | None:

@@ -10,10 +10,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import defects
-from .._base.numbers import real
 from ..bearings import bearing
 from ..errors import SceneError
-from ..scene import MotionProbe, Texture
+from ..scene import StructureProbe, Texture
 from ..statics import equilibrium
 from .recipe import SURFACES, Recipe, ends_of
 
@@ -54,10 +53,11 @@ _AROUND = 0.7
 """How far from the middle of the load zone a fault of the outer race may lie [rad]."""
 
 _MASS = (0.5, 4.0)
-"""Mass of the housing over that of a pillow block."""
-_MOUNT = (300.0, 3000.0)
-"""Natural frequency of the housing on its mount [Hz]."""
-_MOUNT_DAMPING = (0.01, 0.1)
+"""Masses of the machine over those of a pedestal."""
+_FREQUENCY, _APART = (0.6, 1.6), (0.8, 1.25)
+"""Natural frequencies over those of a pedestal, all together and each by itself."""
+_DAMPING = (0.01, 0.1)
+"""Damping ratio of a mode."""
 
 
 @dataclass(frozen=True)
@@ -80,8 +80,7 @@ class Drawing:
             clearance=None if recipe.clearance == "scatter" else recipe.clearance,
             texture=rough if recipe.surfaces == "as_made" else None,
         )
-        probe = MotionProbe(body="outer", components=("ax", "ay", "az"))
-        healthy = replace(healthy, probes={"outer": probe})
+        healthy = replace(healthy, probes={"housing": StructureProbe()})
         found = {"healthy": healthy}
         for kind in recipe.faults:
             for shape, defect in _shapes(SURFACES[kind], 1e3 * recipe.made.ball_diameter).items():
@@ -117,7 +116,7 @@ class Drawing:
         """Return what a bearing has of its own, and what it sits in."""
         recipe, rng = self.recipe, np.random.default_rng([self.seed, 0, number])
         own: dict[str, Any] = {"rows[0].start_angle": float(rng.uniform(0.0, 2.0 * math.pi))}
-        own |= self._mount(rng)
+        own |= self._structure(rng)
         if recipe.clearances is not None:
             own["rows[0].clearance"] = float(rng.uniform(*recipe.clearances))
         if recipe.slip is not None:
@@ -128,13 +127,20 @@ class Drawing:
             own["cage.ring.pocket_clearance"] = 0.5 * scale * float(rng.uniform(*_PLAY))
         return own | (self._texture(rng) if recipe.surfaces == "as_made" else {})
 
-    def _mount(self, rng: np.random.Generator) -> dict[str, Any]:
-        """Return a housing on its mount, alike in all directions."""
-        mass = _log(rng, _MASS) * real(self.scenes["healthy"].outer_ring.mass)
-        omega, ratio = 2.0 * math.pi * _log(rng, _MOUNT), _log(rng, _MOUNT_DAMPING)
-        mount = {"stiffness": mass * omega**2, "damping": 2.0 * ratio * mass * omega}
-        held = {f"outer_ring.support.{a}.spring.{k}": v for a in "xyz" for k, v in mount.items()}
-        return {"outer_ring.mass": mass} | held
+    def _structure(self, rng: np.random.Generator) -> dict[str, Any]:
+        """Return the machine that it stands on: a pedestal with other masses, frequencies and dampings."""
+        structure = self.scenes["healthy"].structure
+        assert structure is not None
+        mass, frequency = _log(rng, _MASS), _log(rng, _FREQUENCY)
+        drawn: dict[str, Any] = {}
+        for k, mode in enumerate(structure.modes):
+            own = {
+                "frequency": mode.frequency * frequency * _log(rng, _APART),
+                "damping": _log(rng, _DAMPING),
+                "mass": mode.mass * mass,
+            }
+            drawn |= {f"structure.modes[{k}].{name}": value for name, value in own.items()}
+        return drawn
 
     def _texture(self, rng: np.random.Generator) -> dict[str, Any]:
         made, slope = self.recipe.made, float(rng.uniform(*_SLOPE))

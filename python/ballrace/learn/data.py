@@ -225,7 +225,7 @@ def dataset(
     count, seed = counted("per_class", per_class, 1), counted("seed", seed, 0)
     drawing = Drawing(recipe, seed)
     making = _Making(drawing=drawing, folder=folder, count=count, options={
-        "duration": window + _SKIP, "fs": _OVERSAMPLED * fs, "keep": "signals", "columns": ["outer.ay"],
+        "duration": window + _SKIP, "fs": _OVERSAMPLED * fs, "keep": "signals", "columns": ["housing.sensor.ay"],
         "threads": threads,
     })  # fmt: skip
     if progress is True:

@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import Literal, get_args
+from typing import TYPE_CHECKING, Literal, get_args
 
 from .._base.arguments import knows
 from .._base.numbers import finite, positive
-from ..bearings import Bearing, Pedestal, bearing, catalogue
+from ..bearings import Bearing, bearing, catalogue
 from ..bearings.filled import with_spin
 from ..errors import SceneError
 from ..scene import Load, Scene
 from ..statics import equilibrium
 from .shafts import SPEEDS, shaft
+
+if TYPE_CHECKING:
+    from ..scene import Structure
 
 __all__ = ["Arrangement", "pair"]
 
@@ -34,7 +37,7 @@ def pair(
     at: float = 0.0,
     speed_rpm: float | None = None,
     outer_rpm: float | None = None,
-    housing: Literal["pedestal"] | Pedestal = "pedestal",
+    housing: Literal["pedestal"] | Structure | None = "pedestal",
 ) -> Scene:
     """Return a pair of equal angular contact bearings side by side, their middle at z = 0; the shaft tilts.
 

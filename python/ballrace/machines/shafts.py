@@ -10,15 +10,23 @@ from typing import TYPE_CHECKING, Literal
 
 from .._base.arguments import knows
 from .._base.numbers import real
-from ..bearings import Bearing, Pedestal, catalogue
-from ..bearings.build import OUTER, asked_clearance, rows_of
+from ..bearings import Bearing, catalogue
+from ..bearings.build import (
+    OUTER,
+    OUTER_RING,
+    SEAT_DAMPING,
+    SEAT_STIFFNESS,
+    asked_clearance,
+    metal,
+    rows_of,
+)
 from ..bearings.filled import filled
-from ..bearings.pedestal import pillow_block
+from ..bearings.pedestal import chosen_housing
 from ..errors import SceneError
 from ..scene import Defect, Load, Lubricant, Ring, Row, Scene, Spring, Support, Unbalance
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from ..scene import Structure
 
 __all__ = ["SPEEDS", "shaft"]
 
@@ -69,12 +77,12 @@ def shaft(
     defects: Defect | Mapping[str, Defect] | None = None,
     lubricant: str | Lubricant | None = None,
     temperature_c: float | None = None,
-    housing: Literal["pedestal"] | Pedestal = "pedestal",
+    housing: Literal["pedestal"] | Structure | None = "pedestal",
 ) -> Scene:
     """Return a rigid shaft on two or more bearings, as one scene with a row for each row of balls.
 
     The shaft is one body that moves and tilts: a steel cylinder of the smallest bore from the first bearing to the
-    last, with the masses on it. All outer rings and their housing are another, which moves and does not tilt.
+    last, with the masses on it. All outer rings are another, which moves and does not tilt.
 
     The shaft does not bend, and no outer ring slides in its seat: every deep groove bearing holds the shaft
     axially, within its clearance.
@@ -88,8 +96,8 @@ def shaft(
     speed_rpm : float, optional
         Speed of the shaft [1/min]; may be left out only where the outer rings turn, and is then 0.
     outer_rpm : float, optional
-        Speed of all outer rings with their housing [1/min], as in wheel hubs, idlers and sheaves on an axle; by
-        default they stand. The housing's mount does not turn.
+        Speed of all outer rings [1/min], as in wheel hubs, idlers and sheaves on an axle; by default they stand.
+        What they stand on does not turn.
     masses : sequence of (float, float) or (float, float, float)
         Masses on the shaft: mass [kg], axial place [m], and the diameter of a disc [m] (without: a point).
     unbalances : sequence of (float, float) or (float, float, float)
@@ -100,9 +108,9 @@ def shaft(
         Defects by name, or one alone; their ``row`` counts the rows in the order of the bearings, from 0.
     lubricant, temperature_c
         As of :func:`ballrace.bearing`.
-    housing : {"pedestal"} or Pedestal
-        Housing of all outer rings, one mass with them on a mount; ``"pedestal"``: the pillow blocks of all
-        bearings together.
+    housing : {"pedestal"}, Structure or None
+        What all outer rings stand on together, as of :func:`ballrace.bearing`; ``"pedestal"``: pedestals of the
+        bearings' mean size side by side.
 
     Returns
     -------
@@ -130,7 +138,8 @@ def shaft(
     return filled(
         name=" + ".join(place.made.designation for place in places),
         rows=tuple(row for place in places for row in place.rows),
-        outer_ring=_outer(places, housing),
+        outer_ring=_outer(places),
+        structure=_around(places, housing),
         inner_ring=_inner(places, masses),
         speed_rpm=speed_rpm,
         outer_rpm=outer_rpm,
@@ -209,19 +218,18 @@ def _inner(places: list[_Place], masses: Sequence[Sequence[float]]) -> Ring:
     )
 
 
-def _outer(places: Iterable[_Place], housing: object) -> Ring:
-    if housing == "pedestal":
-        blocks = [pillow_block(place.made.outside_diameter) for place in places]
-        housing = Pedestal(
-            mass=sum(block.mass for block in blocks),
-            stiffness=sum(block.stiffness for block in blocks),
-            damping=sum(block.damping for block in blocks),
-        )
-    if not isinstance(housing, Pedestal):
-        allowed = '"pedestal" or a br.Pedestal(mass=…, stiffness=…, damping=…)'
-        raise SceneError("housing", repr(housing), allowed)
-    held = Spring(stiffness=housing.stiffness, damping=housing.damping)
-    return Ring(mass=housing.mass, support=Support(x=held, y=held, z=held))
+def _outer(places: Sequence[_Place]) -> Ring:
+    """Return all outer rings as one, on the springs of their seats."""
+    size = sum(metal(place.made) for place in places)
+    held = Spring(stiffness=SEAT_STIFFNESS * size, damping=SEAT_DAMPING * size)
+    return Ring(mass=OUTER_RING * size, support=Support(x=held, y=held, z=held))
+
+
+def _around(places: Sequence[_Place], housing: object) -> Structure | None:
+    """Return what the rings stand on; of pedestals that many of the mean size, by the masses."""
+    cubes = [place.made.outside_diameter**3 for place in places]
+    mean = (sum(cubes) / len(cubes)) ** (1.0 / 3.0)
+    return chosen_housing(housing, mean, len(cubes))
 
 
 def _unbalances(given: Sequence[Sequence[float]]) -> dict[str, Unbalance]:

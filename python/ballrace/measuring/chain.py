@@ -47,8 +47,9 @@ class Chain:
     ----------
     direction : tuple of three floats, or None
         Direction of the sensor, x right, y up, z along the axis; its length does not matter. None: y.
-    body : str
-        The body whose acceleration reaches it, such as ``outer``.
+    body : str or None
+        The body whose acceleration reaches it, such as ``outer``, or a sensor of the scene's structure, such as
+        ``housing.sensor``. None: such a sensor if there is one, else ``outer``.
     housing : Housing, MeasuredResponse, ImpulseResponse or None
         Between the body and the sensor.
     machine : Machine or None
@@ -62,7 +63,7 @@ class Chain:
     """
 
     direction: tuple[float, float, float] | None = None
-    body: str = "outer"
+    body: str | None = None
     housing: AnyHousing | None = None
     machine: Machine | None = None
     sensor: Sensor | None = None
@@ -86,7 +87,7 @@ class _Stages(TypedDict, total=False):
     """The fields of a chain."""
 
     direction: tuple[float, float, float] | None
-    body: str
+    body: str | None
     housing: AnyHousing | None
     machine: Machine | None
     sensor: Sensor | None

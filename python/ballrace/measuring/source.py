@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from .. import _core
 from .._base.numbers import real, real_row
+from ..channel import default_column
 from ..errors import SceneError
 from ..scene import MotionProbe
 from ..scene.turning import constant_speeds
@@ -93,7 +94,7 @@ def of_array(
 
 def of_signals(
     out: Signals,
-    body: str,
+    body: str | None,
     direction: tuple[float, float, float] | None,
     shaft: ArrayLike | None,
 ) -> Source:
@@ -105,12 +106,12 @@ def of_signals(
         It was not recorded.
     """
     parts = unit(direction or (0.0, 1.0, 0.0))
-    name = probe_of(out.scene, body)
+    name = _sensor(out) if body is None else probe_of(out.scene, body)
     x = np.zeros(out.n_samples)
     for axis, part in zip("xyz", parts, strict=True):
         if part != 0.0:
             if f"{name}.a{axis}" not in out:
-                wanted = f'a probe MotionProbe(body="{body}") with the component a{axis}'
+                wanted = f"the acceleration {name}.a{axis} among the columns: give the scene a probe of it"
                 raise SceneError("direction", repr(direction), wanted)
             x += part * out[f"{name}.a{axis}"]
     given = _angle(shaft, out.t)
@@ -118,6 +119,14 @@ def of_signals(
     stands = inner is None or inner[-1] == inner[0]
     angle = against if stands else inner
     return Source(x=x, t=out.t, fs=out.fs, angle=angle, against=against)
+
+
+def _sensor(out: Signals) -> str:
+    """Return what the columns of the first sensor of the scene's structure begin with, else of the outer ring."""
+    found = default_column(out)
+    return (
+        found.removesuffix(".ay") if found.startswith("housing.") else probe_of(out.scene, "outer")
+    )
 
 
 def probe_of(scene: Scene, body: str) -> str:

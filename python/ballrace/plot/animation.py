@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..channel import default_column
 from ..errors import SceneError
-from ..scene import ContactsProbe, MotionProbe
+from ..scene import ContactsProbe, MotionProbe, StructureProbe
 from .decimation import min_max
 from .moving import Moving
 from .outlines import outlines
@@ -39,12 +40,14 @@ def probes(scene: Scene) -> dict[str, Probe]:
             found[f"row{number}_ball{ball}"] = MotionProbe(
                 body=f"row{number}.ball{ball}", components=("x", "y", "z", "theta")
             )
+    if scene.structure is not None and scene.structure.sensors:
+        found["housing"] = StructureProbe()
     return found
 
 
 def animation(
     out: Signals,
-    column: str = "outer.ay",
+    column: str | None = None,
     *,
     row: int = 0,
     start: float = 0.0,
@@ -63,8 +66,8 @@ def animation(
     ----------
     out : Signals
         A run of a scene with the probes of :func:`probes`.
-    column : str
-        Column of the signal below.
+    column : str, optional
+        Column of the signal below; by default as of :meth:`ballrace.Recording.channel`.
     row : int
         Row that is seen from the front.
     start, end : float
@@ -92,6 +95,8 @@ def animation(
     """
     from .._base.plotly import Frame
 
+    check_run(out)
+    column = default_column(out) if column is None else column
     check(out, column, row, frames)
     shown = samples(out, start, end, frames)
     t = 1e3 * out.t

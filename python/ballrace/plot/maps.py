@@ -56,7 +56,7 @@ def spectrogram(
     of : Signals, Measurement, Recording, Channel or array_like
         A run, a record, or an array.
     column : str, optional
-        Column of it; by default ``outer.ay`` if there is one, else the first.
+        Column of it; by default as of :meth:`ballrace.Recording.channel`.
     fs : float, optional
         Sampling rate of an array [Hz].
     length : int, optional
@@ -116,7 +116,7 @@ def order_map(
         Column of the shaft's angle, or the angle itself [rad]. Of a run whose outer ring turns, that of the inner
         ring is taken against the outer's.
     column : str, optional
-        Column of the signal; by default ``outer.ay`` if there is one, else the first.
+        Column of the signal; by default as of :meth:`ballrace.Recording.channel`.
     per_turn : int, optional
         Samples a turn, as of :func:`ballrace.spectra.by_order`; by default enough for ``highest``.
     envelope : bool

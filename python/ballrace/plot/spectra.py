@@ -56,7 +56,7 @@ def envelope_spectrum(
     of : Signals, Measurement, Recording, Channel or array_like
         A run, a record, or an array.
     column : str, optional
-        Column of it; by default ``outer.ay`` if there is one, else the first.
+        Column of it; by default as of :meth:`ballrace.Recording.channel`.
     fs : float, optional
         Sampling rate of an array [Hz].
     band : tuple of two floats, optional

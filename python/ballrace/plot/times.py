@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..channel import default_column
 from ..errors import SceneError
 from ..spectra import squared_envelope
 from .decimation import min_max
@@ -70,7 +71,7 @@ def signals(
 
 def load_cases(
     cases: Mapping[str, Columns],
-    name: str = "outer.ay",
+    name: str | None = None,
     *,
     bpfo: float | None = None,
     fig: go.Figure | None = None,
@@ -82,8 +83,8 @@ def load_cases(
     ----------
     cases : mapping of str to Signals or Recording
         Runs or records by the title of their panel.
-    name : str
-        Column.
+    name : str, optional
+        Column; by default as of :meth:`ballrace.Recording.channel`.
     bpfo : float, optional
         Frequency of the balls passing a place of the outer race [Hz]: draws grid lines one passage apart.
     fig : plotly.graph_objects.Figure, optional
@@ -99,7 +100,7 @@ def load_cases(
         There is no such column.
     """
     _check_cases(cases)
-    fig = _stacked(fig, [(label, out, name) for label, out in cases.items()])
+    fig = _stacked(fig, [(label, out, name or default_column(out)) for label, out in cases.items()])
     share_scale(fig, len(cases))
     if bpfo is not None:
         passage = {
@@ -148,7 +149,7 @@ def impacts(
     of : Signals, Measurement, Recording, Channel or array_like
         A run, a record, or an array.
     column : str, optional
-        Column of it; by default ``outer.ay`` if there is one, else the first.
+        Column of it; by default as of :meth:`ballrace.Recording.channel`.
     fs : float, optional
         Sampling rate of an array [Hz].
     faults : iterable of {"outer_race", "inner_race", "ball", "cage"}, optional

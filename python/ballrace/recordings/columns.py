@@ -8,7 +8,7 @@ from collections.abc import ItemsView, Iterable, Iterator, KeysView, Mapping, Va
 from typing import TYPE_CHECKING, Any, Self, TypeVar, overload
 
 from .._base.libraries import needed
-from ..channel import Channel
+from ..channel import Channel, default_column
 from ..errors import SceneError
 from .samples import Samples
 from .windows import Origin, windows
@@ -102,7 +102,8 @@ class Columns:
         Parameters
         ----------
         name : str, optional
-            Column; by default ``outer.ay`` if there is one, else the first.
+            Column; by default that of a structure's sensor, ``housing.<sensor>.ay``, else ``outer.ay``, else
+            the first.
 
         Raises
         ------
@@ -119,7 +120,7 @@ class Columns:
         'g'
         """
         if name is None:
-            name = "outer.ay" if "outer.ay" in self else next(iter(self))
+            name = default_column(self)
         if not isinstance(name, str):
             raise SceneError("column", repr(name), f"the name of one, of {', '.join(self)}")
         start = float(self.t[0]) if self.t.size else 0.0

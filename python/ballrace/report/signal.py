@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..channel import default_column
 from ..errors import BallraceError, SceneError
 from ..plot.decimation import min_max
 from ..scene.turning import relative_speed
@@ -40,7 +41,7 @@ def chosen(out: Signals, columns: Sequence[str] | None) -> tuple[str, ...]:
     if columns is not None:
         return tuple(columns)
     accelerations = [name for name in out.names if out.units[name] == "m/s^2"]
-    preferred = [name for name in ("outer.ay", "inner.ay") if name in accelerations]
+    preferred = [name for name in (default_column(out.names), "inner.ay") if name in accelerations]
     return tuple((preferred or accelerations or list(out.names))[:1])
 
 

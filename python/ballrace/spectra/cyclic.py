@@ -39,7 +39,7 @@ def cyclic_coherence(
     Parameters
     ----------
     x : Signals, Measurement, Recording, Channel or array_like, shape (n,)
-        Signal; of a record ``outer.ay`` if there is one, else its first column.
+        Signal; of a record its column by default, as of :meth:`ballrace.Recording.channel`.
     rates : array_like, shape (k,)
         Cyclic frequencies, above 0 and below fs/2 [Hz]; a record of ``T`` seconds resolves those 1/T apart.
     fs : float, optional

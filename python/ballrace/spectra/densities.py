@@ -29,7 +29,7 @@ def psd(
     Parameters
     ----------
     x : Signals, Measurement, Recording, Channel or array_like, shape (n,)
-        Signal; of a record ``outer.ay`` if there is one, else its first column.
+        Signal; of a record its column by default, as of :meth:`ballrace.Recording.channel`.
     fs : float, optional
         Sampling rate of an array [Hz].
     length : int, optional
@@ -76,7 +76,7 @@ def spectrogram(
     Parameters
     ----------
     x : Signals, Measurement, Recording, Channel or array_like, shape (n,)
-        Signal; of a record ``outer.ay`` if there is one, else its first column.
+        Signal; of a record its column by default, as of :meth:`ballrace.Recording.channel`.
     fs : float, optional
         Sampling rate of an array [Hz].
     length : int, optional

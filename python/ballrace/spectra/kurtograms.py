@@ -100,7 +100,7 @@ def kurtogram(x: Given, fs: float | None = None, narrowest: float | None = None)
     Parameters
     ----------
     x : Signals, Measurement, Recording, Channel or array_like, shape (n,)
-        Signal; of a record ``outer.ay`` if there is one, else its first column.
+        Signal; of a record its column by default, as of :meth:`ballrace.Recording.channel`.
     fs : float, optional
         Sampling rate of an array [Hz].
     narrowest : float, optional
@@ -165,7 +165,7 @@ def spectral_kurtosis(
     Parameters
     ----------
     x : Signals, Measurement, Recording, Channel or array_like, shape (n,)
-        Signal; of a record ``outer.ay`` if there is one, else its first column.
+        Signal; of a record its column by default, as of :meth:`ballrace.Recording.channel`.
     fs : float, optional
         Sampling rate of an array [Hz].
     length : int, optional

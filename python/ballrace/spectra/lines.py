@@ -35,7 +35,7 @@ def spectrum(x: Given, fs: float | None = None) -> tuple[NDArray[np.float64], ND
     Parameters
     ----------
     x : Signals, Measurement, Recording, Channel or array_like, shape (n,)
-        Signal; of a record ``outer.ay`` if there is one, else its first column.
+        Signal; of a record its column by default, as of :meth:`ballrace.Recording.channel`.
     fs : float, optional
         Sampling rate of an array [Hz].
 

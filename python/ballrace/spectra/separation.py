@@ -36,7 +36,7 @@ def separated(
     Parameters
     ----------
     x : Signals, Measurement, Recording, Channel or array_like, shape (n,)
-        Signal; of a record ``outer.ay`` if there is one, else its first column.
+        Signal; of a record its column by default, as of :meth:`ballrace.Recording.channel`.
     fs : float, optional
         Sampling rate of an array [Hz].
     length : int, optional

@@ -79,8 +79,8 @@ def bands_iso15242(
     Parameters
     ----------
     x : Signals, Measurement, Recording, Channel or array_like, shape (n,)
-        Signal; of a record ``outer.ay`` if there is one, else its first column. At least five periods of the
-        lowest frequency; the standard averages over half a second and more.
+        Signal; of a record its column by default, as of :meth:`ballrace.Recording.channel`. At least five
+        periods of the lowest frequency; the standard averages over half a second and more.
     fs : float, optional
         Sampling rate of an array [Hz].
     unit : {"m/s^2", "g", "m/s", "mm/s"}, optional

@@ -1,0 +1,163 @@
+"""What a sensor measures of a spall, by the machine around the bearing, beside measured records.
+
+    python benches/housing.py [--seconds S] [--groups OR5 IR5 …]
+
+HIT-SM (Harbin Institute of Technology, SpectraQuest half; see ``verdict_measured.py`` for the folder): a 6205 under
+49 N with damage over 2, 5 and 8 degrees of a race. Its unit is not given, so levels are over the whole. Each figure is
+the median of 600, 900 and 1200 1/min, between 50 Hz and 20 kHz: rms [m/s²], kurtosis, crest factor, the time in which
+impacts fall by 20 dB, and the level of bands over that of the whole [dB]. Housings: none, the lump of 0.8 kg on 1 kHz
+of version 0.3's ``br.bearing``, and the pedestal.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+import warnings
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.signal import butter, hilbert, sosfiltfilt
+
+import ballrace as br
+from verdict_measured import DATA, records
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+RPMS = (600, 900, 1200)
+FS, BEGIN = 51_200.0, 0.1
+BAND, BANDS = (50.0, 20_000.0), (500.0, 1000.0, 2000.0, 4000.0, 8000.0, 14_000.0)
+LUMP = {
+    "outer_ring.mass": 0.8,
+    **{
+        f"outer_ring.support.{axis}": br.scene.Spring(
+            stiffness=0.8 * (2e3 * math.pi) ** 2, damping=0.06 * 0.8 * 2e3 * math.pi
+        )
+        for axis in "xyz"
+    },
+}
+
+
+def scene(group: str, rpm: float, housing: br.Structure | str | None) -> br.Scene:
+    """Return a 6205 with the damage of a group, such as ``OR5``."""
+    made = br.catalogue["6205"]
+    outer = group.startswith("OR")
+    race = 0.5 * (made.pitch_diameter + (1 if outer else -1) * made.ball_diameter)
+    width = 1e3 * race * math.radians(float(group[2:]))
+    spall = br.defects.spall(on="outer_race" if outer else "inner_race", width_mm=width)
+    lump = housing == "lump"
+    made_scene = br.bearing(
+        "6205", radial_load=49.0, speed_rpm=rpm, defects=spall,
+        housing=None if lump else housing,  # type: ignore[arg-type]
+    )  # fmt: skip
+    return made_scene.replace(LUMP) if lump else made_scene
+
+
+def facts(x: NDArray[np.float64], passes: float) -> dict[str, float]:
+    """Return the figures of a record with impacts at a rate [Hz]."""
+    x = sosfiltfilt(butter(4, BAND, "bandpass", fs=FS, output="sos"), x - x.mean())
+    rms = float(np.sqrt(np.mean(x**2)))
+    power = np.abs(np.fft.rfft(x)) ** 2
+    f = np.fft.rfftfreq(x.size, 1.0 / FS)
+    levels = {
+        f"{1e-3 * low:g}–{1e-3 * high:g} kHz": 10.0
+        * math.log10(power[(f >= low) & (f < high)].sum() / power.sum())
+        for low, high in zip(BANDS[:-1], BANDS[1:], strict=True)
+    }
+    return {
+        "rms": rms,
+        "kurtosis": float(np.mean(x**4) / rms**4),
+        "crest": float(np.abs(x).max() / rms),
+        "−20 dB, ms": 1e3 * decay(x, passes),
+    } | levels
+
+
+def decay(x: NDArray[np.float64], passes: float) -> float:
+    """Return how long the mean squared envelope of the strongest third of impacts takes to fall by 20 dB [s].
+
+    Nan where it does not within a pass of the balls.
+    """
+    size = round(FS / passes)
+    envelope = np.abs(hilbert(x)) ** 2
+    peaks = np.array(
+        [k + int(np.argmax(envelope[k : k + size])) for k in range(0, x.size - 2 * size, size)]
+    )
+    strongest = peaks[np.argsort(envelope[peaks])[-max(1, peaks.size // 3) :]]
+    kernel = np.ones(round(2e-4 * FS)) / round(2e-4 * FS)
+    smooth = np.convolve(envelope, kernel, "same")
+    mean = np.mean([smooth[k : k + size] for k in strongest if k + size <= x.size], axis=0)
+    below = np.flatnonzero(mean < 0.01 * mean[0])
+    return float(below[0] / FS) if below.size else math.nan
+
+
+def rate(group: str, rpm: float) -> float:
+    """Return the frequency of impacts of a group [Hz]."""
+    orders = br.catalogue["6205"].orders
+    return rpm / 60.0 * (orders.bpfo if group.startswith("OR") else orders.bpfi)
+
+
+def measured(group: str) -> list[dict[str, float]]:
+    """Return the figures of a group's records."""
+    found = {each.name: each for each in records(DATA) if each.collection == "HIT-SM"}
+    return [facts(found[f"{group}_{rpm}"].x, rate(group, rpm)) for rpm in RPMS]
+
+
+def simulated(
+    group: str, seconds: float, housing: br.Structure | str | None
+) -> list[dict[str, float]]:
+    """Return the figures of a group's runs."""
+    return [
+        facts(ran(scene(group, rpm, housing), seconds), rate(group, rpm)) for rpm in RPMS
+    ]
+
+
+def ran(of: br.Scene, seconds: float) -> NDArray[np.float64]:
+    """Return what a sensor shows of a run after its beginning."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        out = br.simulate(of, duration=BEGIN + seconds, fs=FS)
+    return out.channel().x[round(BEGIN * FS) :]
+
+
+def median(rows: list[dict[str, float]]) -> dict[str, float]:
+    """Return the medians over the speeds."""
+    return {name: float(np.median([row[name] for row in rows])) for name in rows[0]}
+
+
+def table(groups: list[str], ways: dict[str, Callable[[str], list[dict[str, float]]]]) -> str:
+    """Return the comparison as a table in Markdown."""
+    lines: list[str] = []
+    for group in groups:
+        for name, way in ways.items():
+            found = median(way(group))
+            if not lines:
+                lines += [f"| | | {' | '.join(found)} |", "|---|---|" + "---|" * len(found)]
+            cells = [f"{value:.2g}" if abs(value) < 10.0 else f"{value:.0f}" for value in found.values()]
+            lines.append(f"| {group} | {name} | {' | '.join(cells)} |")
+    return "\n".join(lines)
+
+
+def main() -> None:
+    """Print the table."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("--seconds", type=float, default=0.6)
+    parser.add_argument("--groups", nargs="+", default=["OR2", "OR5", "OR8", "IR2", "IR5", "IR8"])
+    options = parser.parse_args()
+
+    def through(housing: str | None) -> Callable[[str], list[dict[str, float]]]:
+        return lambda group: simulated(group, options.seconds, housing)
+
+    ways = {
+        "HIT-SM": measured,
+        "pedestal": through("pedestal"),
+        "lump": through("lump"),
+        "none": through(None),
+    }
+    print(table(options.groups, ways))
+
+
+if __name__ == "__main__":
+    main()
