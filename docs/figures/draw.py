@@ -302,10 +302,10 @@ def blows(ax: Axes) -> None:
     """Draw the first turns of its acceleration."""
     out = spalled()
     shown = out.t < 0.12
-    ax.plot(1e3 * out.t[shown], out["outer.ay"][shown], color=EDGE, lw=0.6)
+    ax.plot(1e3 * out.t[shown], out["housing.sensor.ay"][shown], color=EDGE, lw=0.6)
     ax.margins(x=0.0)
     labelled(ax, "what a sensor records", "time [ms]", "acceleration [m/s²]")
-    highest = np.abs(out["outer.ay"][shown]).max()
+    highest = np.abs(out["housing.sensor.ay"][shown]).max()
     ax.set_ylim(-highest, highest)
 
 
@@ -319,7 +319,7 @@ def spectrum(ax: Axes, *, sidebands: bool = True) -> None:
     """Draw the envelope spectrum of a simulated bearing, its lines named."""
     out = spalled()
     rates = br.fault_frequencies(out.scene)
-    f, value = br.spectra.squared_envelope_spectrum(out["outer.ay"], out.fs)
+    f, value = br.spectra.squared_envelope_spectrum(out)
     shown = (f > 3.0) & (f < 420.0)
     ax.plot(f[shown], value[shown], color=EDGE, lw=0.9)
     lines = {"$f_r$": rates.shaft, "BPFI": rates.bpfi, "2 BPFI": 2.0 * rates.bpfi}
@@ -328,9 +328,17 @@ def spectrum(ax: Axes, *, sidebands: bool = True) -> None:
         lines["BPFI + $f_r$"] = rates.bpfi + rates.shaft
     for name, at in lines.items():
         height = value[np.abs(f - at) < 3.0].max()
-        ax.text(at, height + 600.0, name, color=RED, ha="center", va="bottom", fontsize=9)
+        ax.text(
+            at,
+            height + 0.02 * value[shown].max(),
+            name,
+            color=RED,
+            ha="center",
+            va="bottom",
+            fontsize=9,
+        )
     ax.margins(x=0.0)
-    labelled(ax, "", "frequency [Hz]", "squared envelope\nof outer.ay [(m/s²)²]")
+    labelled(ax, "", "frequency [Hz]", "squared envelope of\nhousing.sensor.ay [(m/s²)²]")
 
 
 def approaches(ax: Axes) -> None:

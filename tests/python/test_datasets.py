@@ -84,7 +84,7 @@ def test_samples_are_those_of_the_campaign(done: br.Campaign, written: Path) -> 
         assert channel.shaft == pytest.approx(29.95)
         housed = row["recording_id"].endswith("housed")
         assert row["axis"] == ("horizontal" if housed else "vertical")
-        assert row["sensor_mounting"] == ("pedestal" if housed else "outer_ring")
+        assert row["sensor_mounting"] == "pedestal"
 
 
 def test_the_card_has_scenes_and_licence(done: br.Campaign, written: Path) -> None:
@@ -98,19 +98,19 @@ def test_the_card_has_scenes_and_licence(done: br.Campaign, written: Path) -> No
     assert set(card["columns"]) == set(br.read_bearing_dataset(written).metadata.columns)
 
 
-def test_without_chains_the_signals_are_those_of_the_ring(
+def test_without_chains_the_signals_are_those_of_the_sensors(
     done: br.Campaign, tmp_path: Path
 ) -> None:
     done.to_bearing_datasets(tmp_path / "ring")
     found = br.read_bearing_dataset(tmp_path / "ring")
     assert found.metadata["channel"].unique().sort().to_list() == [
-        "outer.ax",
-        "outer.ay",
-        "outer.az",
+        "housing.sensor.ax",
+        "housing.sensor.ay",
+        "housing.sensor.az",
     ]
     case_id = done.manifest["case_id"][1]
-    x = done.run_of(case_id)["outer.ay"]
-    assert np.array_equal(found.channel(f"{case_id}/outer.ay").x, x.astype(np.float32))
+    x = done.run_of(case_id)["housing.sensor.ay"]
+    assert np.array_equal(found.channel(f"{case_id}/housing.sensor.ay").x, x.astype(np.float32))
 
 
 def test_the_package_takes_what_is_written(written: Path) -> None:

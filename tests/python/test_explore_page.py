@@ -113,8 +113,7 @@ STATIC = {
     "moment": ("4", "tilt about x, y"),
     "speed": ("3000", "s (Hz)"),
     "clearance": ("60", "radial stiffness"),
-    "housing: mass": ("2", ""),
-    "housing: mount": ("500", ""),
+    "housing: masses": ("2", ""),
 }
 """Numbers with what they are set to, and what of the table that moves; a housing moves a run alone."""
 

@@ -229,7 +229,7 @@ def test_the_motor_is_a_preset() -> None:
         ({"masses": [(0.0, 0.1)]}, "masses"), ({"masses": [25.0]}, "masses"),
         ({"masses": [(1.0, 0.1, -1.0)]}, "masses"),
         ({"unbalances": [(1e-6,)]}, "unbalances"), ({"unbalances": [("a", 0.1)]}, "unbalances"),
-        ({"housing": None}, "housing"),
+        ({"housing": "stool"}, "housing"),
         ({"loads": 3.0}, "loads"), ({"loads": [force(y=1.0, at=0.0)]}, "loads"),
         ({"loads": {1: force(y=1.0, at=0.0)}}, "loads"), ({"loads": {"a": 900.0}}, "loads.a"),
         ({"loads": {"a": br.scene.Moment(ring="inner", direction=(1, 0, 0), moment=1.0)}}, "loads.a"),
