@@ -119,7 +119,8 @@ def test_direction_projects_the_accelerations() -> None:
 
 def test_of_a_run_it_is_that_of_the_recorded_columns() -> None:
     out = br.simulate(br.bearing("6205", speed_rpm=1797.0), duration=0.01)
-    assert np.array_equal(br.measure(out).x, out["outer.ay"])
+    assert np.array_equal(br.measure(out).x, out["housing.sensor.ay"])
+    assert np.array_equal(br.measure(out, body="outer").x, out["outer.ay"])
     both = br.measure(out, m.Chain(direction=(1.0, 1.0, 0.0), body="inner")).x
     np.testing.assert_allclose(
         both, math.sqrt(0.5) * (out["inner.ax"] + out["inner.ay"]), rtol=1e-12

@@ -85,11 +85,12 @@ A healthy 6308 at 3335 1/min, whose sixth line meets its mount at 1 kHz, has 1.4
 resonance 5e-2.
 """
 
-_FAINT = 0.14
+_FAINT = 0.2
 """Acceleration over the speed of the pitch circle below which lines of a run are no damage [m/s² per m/s].
 
-Of simulated 6205 and 6309 at 900 to 1800 1/min under 150 to 1500 N healthy ones have up to 0.71 of it and spalled
-ones 1.06 and more, but for one of 0.3 mm on an outer race, 0.25.
+Of simulated 6205 and 6309 on their pedestals at 900 to 1800 1/min under 150 to 1500 N and up to 200 N of thrust
+healthy ones have up to 0.91 of it and spalled ones 1.06 and more, but for those of 0.3 mm on the outer race of the
+6309 under 1500 N, 0.24 and 0.40.
 """
 
 _SLOW = 0.5
