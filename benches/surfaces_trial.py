@@ -23,7 +23,7 @@ import ballrace as br
 from ballrace import spectra
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "python"))
-from measured_6205 import HOUSING
+from measured_6205 import PATH, STAND
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -35,7 +35,7 @@ BEGUN = 0.05
 """What is left out at the start [s]: the chain rings up from rest."""
 
 LOAD: dict[str, Any] = {
-    "radial_load": 300.0, "axial_load": 80.0, "speed_rpm": 1797.0, "clearance": 5e-6, "housing": None,
+    "radial_load": 300.0, "axial_load": 80.0, "speed_rpm": 1797.0, "clearance": 5e-6, "housing": STAND,
 }  # fmt: skip
 QUIET, LOUD = (1e-9, 2.0), (2e-9, 1.7)
 """A_30 [m] and slope of the two textures of the trial."""
@@ -101,10 +101,10 @@ def damage(shape: str | None, race: str) -> br.scene.Defect | None:
     return br.defects.spall(on=f"{race}_race", width_mm=WIDTH, length_mm=4.0)
 
 
-def logged(scene: br.Scene, housing: br.measuring.Housing | None) -> NDArray[np.float64]:
-    """Return what a logger at 12 kHz has of a run, on request through a housing."""
+def logged(scene: br.Scene, path: br.Structure | None) -> NDArray[np.float64]:
+    """Return what a logger at 12 kHz has of a run, on request at the end of a path."""
     out = br.simulate(scene, duration=BEGUN + DURATION, fs=FS)
-    chain = br.measuring.Chain(housing=housing, logger=br.measuring.Logger(fs=12_000.0))
+    chain = br.measuring.Chain(path=path, logger=br.measuring.Logger(fs=12_000.0))
     return br.measure(out, chain).x[round(BEGUN * 12_000.0) :]
 
 
@@ -125,7 +125,7 @@ def judged(row: Row, race: str, seeds: int) -> NDArray[np.float64]:
     for scene in scenes(row, race, seeds):
         rates = br.fault_frequencies(scene)
         rate = rates.bpfo if race == "outer" else rates.bpfi
-        x = logged(scene, HOUSING if row.housing else None)
+        x = logged(scene, PATH if row.housing else None)
         found.append(facts(x, rate if row.shape else None))
     return np.array(found)
 

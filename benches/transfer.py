@@ -123,9 +123,9 @@ VARIANTS: dict[str, tuple[str, Machines]] = {
     ),
     "without jitter: equal balls": ("even", PLAIN),
     "without tones": ("whole", chains(lambda m: replace(m, shaft=(), mains=()))),
-    "without the path: no housing": (
+    "without the path: the pedestal": (
         "whole",
-        {name: replace(one, housing=None) for name, one in PLAIN.items()},
+        {name: replace(one, path=None) for name, one in PLAIN.items()},
     ),
     "trained on a 6306": ("other", PLAIN),
 }

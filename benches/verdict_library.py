@@ -4,9 +4,9 @@
 
 writes ``python/ballrace/diagnosis/library.csv``: 480 runs of 25 turns, healthy and damaged, half of them with
 waves of the races, half with textures. Each is recorded three times without its first turn, and one with a damaged
-race three more times for its width alone: through a housing by chance or none, in white noise of 0.05 to 2 m/s²,
-logged at 12.8, 25.6 or 51.2 kHz. With a folder the runs are kept there, and those that are there are not simulated
-anew: a change of what is *found* in records needs none.
+race three more times for its width alone: at the end of a path by chance or on the pedestal, in white noise of
+0.05 to 2 m/s², logged at 12.8, 25.6 or 51.2 kHz. With a folder the runs are kept there, and those that are there
+are not simulated anew: a change of what is *found* in records needs none.
 """
 
 from __future__ import annotations
@@ -121,11 +121,12 @@ def defect(
 
 
 def run(of: Case, folder: Path) -> NDArray[np.float64]:
-    """Return the acceleration of the outer ring, without its first turn."""
+    """Return the force on the seat and what the sensor measures, shape (n, 4), without the first turn."""
     path = folder / f"{of.number}.npy"
     if not path.exists():
         out = br.simulate(of.scene, duration=(TURNS + 1) * 60.0 / of.rpm, fs=FS)
-        np.save(path, out["outer.ay"].astype(np.float32))
+        names = ("seat.fx", "seat.fy", "seat.fz", "housing.sensor.ay")
+        np.save(path, np.stack([out[name] for name in names], 1).astype(np.float32))
     return np.load(path).astype(np.float64)[int(FS * 60.0 / of.rpm) :]
 
 
@@ -134,13 +135,12 @@ def recorded(of: Case, x: NDArray[np.float64], time_: int) -> tuple[br.Channel, 
     rng = np.random.default_rng([43, of.number, time_])
     fs = float(rng.choice([12_800.0, 25_600.0, 51_200.0]))
     noise = log_uniform(rng, 0.05, 2.0)
-    housing = None
-    if rng.uniform() < 0.85:
-        housing = br.measuring.random_housing(
-            seed=1000 + 10 * of.number + time_, band=(3_000.0, 15_000.0)
-        )
     logger = br.measuring.Logger(fs=fs) if fs < FS else None
-    measured = br.measure(x, fs=FS, housing=housing, logger=logger).x
+    if rng.uniform() < 0.85:
+        path = br.measuring.random_housing(seed=1000 + 10 * of.number + time_)
+        measured = br.measure(x[:, :3], fs=FS, path=path, logger=logger).x
+    else:
+        measured = br.measure(x[:, 3], fs=FS, logger=logger).x
     snr = 20.0 * math.log10(measured.std() / noise)
     measured = measured + noise * rng.normal(size=measured.size)
     return br.Channel(x=measured, fs=fs, unit="m/s^2", shaft=of.rpm / 60.0), snr

@@ -6,33 +6,30 @@
 from __future__ import annotations
 
 import functools
+import sys
 import warnings
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from draw import BLUE, RED, labelled, save
+from draw import BLUE, HERE, RED, labelled, save
 
 import ballrace as br
+
+sys.path.append(str(HERE.parents[1] / "tests" / "python"))
+from measured_6205 import PATH, STAND
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 FS = 96_000.0
 LOAD: dict[str, Any] = {
-    "radial_load": 300.0, "axial_load": 80.0, "speed_rpm": 1797.0, "clearance": 5e-6, "housing": None,
+    "radial_load": 300.0, "axial_load": 80.0, "speed_rpm": 1797.0, "clearance": 5e-6, "housing": STAND,
 }  # fmt: skip
 DAMAGE = {
     "slot of 0.178 mm": (br.defects.spall(on="outer_race", width_mm=0.178, length_mm=4.0), BLUE),
     "pit of 0.178 mm": (br.defects.pit(on="outer_race", diameter_mm=0.178), RED),
 }
-HOUSING = br.measuring.Housing(
-    modes=(
-        br.measuring.Mode(frequency=2850.0, damping=0.02, residue=-1.0),
-        br.measuring.Mode(frequency=3420.0, damping=0.02, residue=1.0),
-    )
-)
-"""Two modes as of record 130 of Case Western Reserve University (``tests/python/measured_6205.py``)."""
 
 
 @functools.cache
@@ -82,7 +79,7 @@ def sounds(ax: Axes) -> None:
     """Draw what a sensor records behind the housing over three passes."""
     for name, (_, colour) in DAMAGE.items():
         out = run(name)
-        measured = br.measure(out, br.measuring.Chain(housing=HOUSING)).x[-round(0.028 * FS) :]
+        measured = br.measure(out, br.measuring.Chain(path=PATH)).x[-round(0.028 * FS) :]
         ax.plot(1e3 * np.arange(measured.size) / FS, measured, color=colour, lw=0.8)
     labelled(ax, "three passes, behind a housing", "time [ms]", "acceleration [m/s²]")
     ax.autoscale(axis="y")

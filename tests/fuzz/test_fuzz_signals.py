@@ -237,13 +237,13 @@ def test_any_array_is_a_recording_with_windows_or_is_refused(
 
 
 CHAINS = st.builds(
-    lambda housing, fs, bits, reach, density: measuring.Chain(
-        housing=measuring.random_housing(seed=1) if housing else None,
+    lambda path, fs, bits, reach, density: measuring.Chain(
+        path=measuring.random_housing(seed=1) if path else None,
         sensor=measuring.Sensor(resonance=25_000.0),
         machine=measuring.Machine(noise_density=density),
         logger=measuring.Logger(fs=fs, range=reach, bits=bits),
     ),
-    housing=st.booleans(),
+    path=st.booleans(),
     fs=st.sampled_from((12_000.0, 1000.0, 100.0)),
     bits=st.sampled_from((8, 16, 24)),
     reach=st.sampled_from((1e-3, 50.0, 1e6, None)),

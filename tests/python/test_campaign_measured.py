@@ -1,4 +1,4 @@
-"""A campaign's signals through many housings, without running anything again."""
+"""A campaign's signals at many machines, without running anything again."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 CHAINS = {
-    f"housing {seed}": m.Chain(
-        housing=m.random_housing(seed),
+    f"machine {seed}": m.Chain(
+        path=m.random_housing(seed),
         machine=m.Machine(noise_density=1e-2),
         logger=m.Logger(fs=12_500.0),
     )
@@ -40,7 +40,7 @@ def test_every_case_meets_every_chain(done: br.Campaign) -> None:
     pairs = table.select("case_id", "chain").rows()
     assert pairs == [(case, name) for case in done.manifest["case_id"] for name in CHAINS]
     assert table["sampling_rate"].unique().to_list() == [12_500.0]
-    # Housings differ, and so does their noise.
+    # Paths differ, and so does their noise.
     assert table["sensor.rms"].n_unique() == 6
     assert table["seed"].n_unique() == 6
     assert done.manifest.join(table, on="case_id").height == 6
@@ -90,7 +90,7 @@ def test_what_clips_is_reported_once_and_in_the_manifest(done: br.Campaign) -> N
 
 def test_windows_leave_out_the_ring_up_and_know_their_labels(done: br.Campaign) -> None:
     """Truth: the measurement itself, from the sample behind what is left out, and the manifest's own columns."""
-    chain = m.Chain(housing=m.Housing(modes=(m.Mode(frequency=200.0, damping=0.05),)))
+    chain = m.Chain(path=m.random_housing(1, modes=1, band=(200.0, 200.0)))
     all_, later = done.windows(chain, 100), done.windows(chain, 100, skip=0.0121)
     # Windows begin at the next sample behind what is left out: 302.5 samples of 500.
     assert later["start"].unique().to_list() == [pytest.approx(303 / 25_000.0)]

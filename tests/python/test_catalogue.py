@@ -512,7 +512,7 @@ SPALL = br.defects.spall(on="inner_race", width_mm=1.0)
         ({"load": 1e3}, "load", "radial_load"),
         ({"radial_laod": 1e3}, "radial_laod", "write radial_load"),
         ({"housing": "none"}, "housing", r"\"pedestal\", None \(the bare ring\)"),
-        ({"housing": br.measuring.random_housing(1)}, "housing", r"br\.measuring\.Chain"),
+        ({"housing": br.measuring.Chain()}, "housing", r"br\.measuring\.Chain"),
     ],
 )
 def test_what_people_write_is_refused_with_what_they_meant(

@@ -19,7 +19,7 @@ import ballrace as br
 CHAINS = {
     "plain": br.measuring.Chain(logger=br.measuring.Logger(fs=12_000.0)),
     "housed": br.measuring.Chain(
-        housing=br.measuring.random_housing(seed=1, band=(3_000.0, 9_000.0)),
+        path=br.measuring.random_housing(seed=1, band=(3_000.0, 9_000.0)),
         direction=(1.0, 0.0, 0.0),
     ),
 }

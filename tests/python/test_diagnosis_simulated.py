@@ -1,4 +1,4 @@
-"""Verdicts of simulated bearings: silent, and through random housings with noise.
+"""Verdicts of simulated bearings: silent, and on random machines with noise.
 
 Truth: the scene. A loaded healthy bearing has lines of the outer race as significant as those of a spall, and must
 not be called damaged for them; a spall must be named or left open, and never another part.
@@ -24,9 +24,8 @@ def run(load: float, on: str | None, width_mm: float, duration: float) -> br.Sig
 
 
 def measured(out: br.Signals, seed: int, snr_db: float) -> br.Channel:
-    """Return what a sensor records behind a random housing, in white noise so far below it."""
-    housing = br.measuring.random_housing(seed=seed, band=(3_000.0, 15_000.0))
-    sensor = br.measure(out, housing=housing).channel()
+    """Return what a sensor records on a random machine, in white noise so far below it."""
+    sensor = br.measure(out, path=br.measuring.random_housing(seed=seed)).channel()
     x = sensor.x[round(0.05 * FS) :]
     noise = np.random.default_rng(seed).normal(size=x.size) * x.std() * 10.0 ** (-snr_db / 20.0)
     return br.Channel(x=x + noise, fs=FS, unit=sensor.unit, shaft=sensor.shaft, scene=sensor.scene)
@@ -47,8 +46,8 @@ def test_lines_of_a_healthy_run_are_no_damage() -> None:
 
 @pytest.mark.long
 @pytest.mark.parametrize("snr_db", [20.0, 10.0, 0.0])
-def test_through_housings_no_part_is_accused_that_is_sound(snr_db: float) -> None:
-    """Six housings a bearing, 2 s each: how many are named is printed, and held where it is most."""
+def test_on_machines_no_part_is_accused_that_is_sound(snr_db: float) -> None:
+    """Six machines a bearing, 2 s each: how many are named is printed, and held where it is most."""
     named = {}
     for on in (None, "outer_race", "inner_race"):
         cases = [(150.0, 0.8), (500.0, 0.8), (500.0, 2.0)] if on else [(150.0, 0.0), (500.0, 0.0)]

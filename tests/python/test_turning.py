@@ -146,11 +146,10 @@ def test_a_measured_hub_has_a_comb_with_the_rings_turns() -> None:
 
 
 CHAIN = br.measuring.Chain(
-    housing=br.measuring.random_housing(3),
     machine=br.measuring.Machine(),
     logger=br.measuring.Logger(fs=12_800.0, bits=16),
 )
-"""A sensor on a housing, in the noise of a measured motor."""
+"""A sensor on the pedestal, in the noise of a measured motor."""
 
 
 @pytest.mark.filterwarnings("ignore:row 0. its balls:ballrace.SceneWarning")

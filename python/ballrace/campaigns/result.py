@@ -51,7 +51,7 @@ class Campaign(Kept):
         Parameters
         ----------
         chains : Chain, mapping of str to Chain, or sequence of Chain
-            Measuring chains, such as one for each of many housings; those without a name are numbered from 0.
+            Measuring chains, such as one for each of many machines; those without a name are numbered from 0.
         seed : int
             Every case and chain has its own noise, which follows from this seed.
         per_case : int, optional
@@ -131,7 +131,7 @@ class Campaign(Kept):
             Samples of a window, and from one to the next; by default they do not overlap.
         skip : float
             Beginning of each measurement that is left out [s]. The chain is at rest as a measurement begins: leave
-            out the time in which its housing and sensor ring up, 1/(2 ζ f) for each of their modes or more.
+            out the time in which its path and sensor ring up, 1/(2 ζ f) for each of their modes or more.
         labels : sequence of str
             Columns of the manifest that every window gets: by default whether a loaded contact met such a defect
             in the run of its case, not in the window.

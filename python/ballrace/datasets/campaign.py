@@ -86,7 +86,7 @@ def _of_sensors(
         own = {
             "recording_id": f"{line.case_id}_{line.chain}", "channel": "sensor", "fs": found.fs,
             "axis": axis_of(found.chain.direction), "quantity": "acceleration", "unit": found.unit,
-            "sensor_mounting": "pedestal" if found.chain.housing or line.scene.structure else "outer_ring",
+            "sensor_mounting": "outer_ring" if line.scene.structure is None else "pedestal",
         }  # fmt: skip
         yield own | row_of(line.scene, case, found.start + 0.5 * found.x.size / found.fs), found.x
 

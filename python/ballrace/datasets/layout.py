@@ -16,7 +16,7 @@ COLUMNS = {
     "quantity": "acceleration",
     "unit": "m/s^2",
     "axis": "direction of the sensor: horizontal x, vertical y, axial z; unknown: oblique",
-    "sensor_mounting": "pedestal: on a structure of the scene, or behind a housing of a chain; else outer_ring",
+    "sensor_mounting": "pedestal: on the structure of the scene, or a path from its seat; else outer_ring",
     "fs": "sampling rate in Hz",
     "n_samples": "number of samples",
     "speed_rpm": "speed of the rings against each other in 1/min; where it changes, in the middle of the record",

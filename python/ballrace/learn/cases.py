@@ -12,7 +12,7 @@ import numpy as np
 from .. import defects
 from ..bearings import bearing
 from ..errors import SceneError
-from ..scene import StructureProbe, Texture
+from ..scene import SeatProbe, StructureProbe, Texture
 from ..statics import equilibrium
 from .recipe import SURFACES, Recipe, ends_of
 
@@ -80,7 +80,7 @@ class Drawing:
             clearance=None if recipe.clearance == "scatter" else recipe.clearance,
             texture=rough if recipe.surfaces == "as_made" else None,
         )
-        healthy = replace(healthy, probes={"housing": StructureProbe()})
+        healthy = replace(healthy, probes={"housing": StructureProbe(), "seat": SeatProbe()})
         found = {"healthy": healthy}
         for kind in recipe.faults:
             for shape, defect in _shapes(SURFACES[kind], 1e3 * recipe.made.ball_diameter).items():

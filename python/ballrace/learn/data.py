@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 __all__ = ["Simulated", "dataset"]
 
 _SKIP = 0.03
-"""Beginning of a measurement in which housing and sensor ring up [s]: five times 1/(2 ζ f) of 800 Hz at 1 %."""
+"""Beginning of a measurement in which path and sensor ring up [s]: five times 1/(2 ζ f) of 800 Hz at 1 %."""
 _OVERSAMPLED = 2
 """Rate of the runs over that of the records, which leaves room for modes and sensor."""
 _ROUNDS = 4

@@ -15,13 +15,14 @@ from ..errors import AccuracyWarning, SceneError
 from ..recordings.recording import Recording
 from ..recordings.scenes import origin_of
 from ..recordings.windows import windows
-from ..scene import Scene
+from ..scene import Scene, Structure
 from ..signals import Signals
-from .housing import AnyHousing, Housing, ImpulseResponse, MeasuredResponse
+from .coupling import TOO_MUCH, coupling
 from .linear import passed
 from .logger import Logger
 from .machine import Machine
 from .mixing import mix_into
+from .path import ImpulseResponse, MeasuredResponse, Path
 from .sensor import Sensor
 from .source import Source, of_array, of_signals
 from .tacho import Tacho
@@ -49,9 +50,11 @@ class Chain:
         Direction of the sensor, x right, y up, z along the axis; its length does not matter. None: y.
     body : str or None
         The body whose acceleration reaches it, such as ``outer``, or a sensor of the scene's structure, such as
-        ``housing.sensor``. None: such a sensor if there is one, else ``outer``.
-    housing : Housing, MeasuredResponse, ImpulseResponse or None
-        Between the body and the sensor.
+        ``housing.sensor``. None: such a sensor if there is one, else ``outer``. With a path: the name of its
+        sensor; None: the only one that it has.
+    path : Structure, MeasuredResponse, ImpulseResponse or None
+        From the force of the outer ring on its seat to a sensor elsewhere on the machine. It is driven by that
+        force and does not act back: see ``coupling`` of a :class:`Measurement`.
     machine : Machine or None
         What the machine adds.
     sensor : Sensor or None
@@ -64,7 +67,7 @@ class Chain:
 
     direction: tuple[float, float, float] | None = None
     body: str | None = None
-    housing: AnyHousing | None = None
+    path: Path | None = None
     machine: Machine | None = None
     sensor: Sensor | None = None
     logger: Logger | None = None
@@ -88,7 +91,7 @@ class _Stages(TypedDict, total=False):
 
     direction: tuple[float, float, float] | None
     body: str | None
-    housing: AnyHousing | None
+    path: Path | None
     machine: Machine | None
     sensor: Sensor | None
     logger: Logger | None
@@ -96,7 +99,7 @@ class _Stages(TypedDict, total=False):
 
 
 _KINDS: dict[str, tuple[type, ...]] = {
-    "housing": (Housing, MeasuredResponse, ImpulseResponse),
+    "path": (Structure, MeasuredResponse, ImpulseResponse),
     "machine": (Machine,),
     "sensor": (Sensor,),
     "logger": (Logger,),
@@ -132,6 +135,9 @@ class Measurement:
         Mean rate of the shaft [Hz], if it is known.
     scene : Scene or None
         What was run, where signals of a run were measured.
+    coupling : float or None
+        How much the path's modes would act back on the ring, were they in the scene; up to 0.1 the rms is right
+        within 10 %, above 0.3 :func:`ballrace.measure` warns. None without a run or a path with modes.
     warnings : tuple of str
         Warnings of that run.
     """
@@ -147,6 +153,7 @@ class Measurement:
     seed: int = 0
     shaft: float | None = None
     scene: Scene | None = None
+    coupling: float | None = None
     warnings: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
@@ -274,12 +281,13 @@ def measure(
     seed: int = 0,
     **stages: Unpack[_Stages],
 ) -> Measurement:
-    """Take an acceleration through a measuring chain.
+    """Take an acceleration, or the force on a seat, through a measuring chain.
 
     Parameters
     ----------
     of : Signals, or array_like, shape (n,) or (n, 3)
-        Signals of a run; or an acceleration [m/s²], or those along x, y, z.
+        Signals of a run; or an acceleration [m/s²], or those along x, y, z. With a path: the force on the seat
+        along y [N], or along x, y, z.
     chain : Chain, optional
         The stages. Without any the numbers stay as they are.
     fs : float, optional
@@ -305,7 +313,7 @@ def measure(
     Warns
     -----
     AccuracyWarning
-        More than 0.1 % of the samples lie beyond the range that the logger was given.
+        More than 0.1 % of the samples lie beyond the range that the logger was given, or the path would act back.
 
     Examples
     --------
@@ -317,7 +325,16 @@ def measure(
     found = measured(of, chain, fs=fs, shaft=shaft, seed=seed, **stages)
     if found.clipped > CLIPPED:
         warnings.warn(_clipped(found.clipped, found.range), AccuracyWarning, stacklevel=2)
+    if found.coupling is not None and found.coupling > TOO_MUCH:
+        warnings.warn(_acts_back(found.coupling), AccuracyWarning, stacklevel=2)
     return found
+
+
+def _acts_back(kappa: float) -> str:
+    return (
+        f"a mode of the path would act back on the ring (κ = {kappa:.2g}, above {TOO_MUCH:g}): levels are wrong "
+        "by half and more; run it in the scene, br.bearing(housing=…), or give it heavier modes"
+    )
 
 
 def _clipped(share: float, reach: float | None) -> str:
@@ -341,9 +358,9 @@ def measured(
     if isinstance(of, Signals):
         if fs is not None:
             raise SceneError("fs", repr(fs), "None: the signals of a run know it")
-        source = of_signals(of, chain.body, chain.direction, shaft)
+        source = of_signals(of, chain.body, chain.direction, shaft, chain.path)
     else:
-        source = of_array(of, fs, shaft, chain.direction)
+        source = of_array(of, fs, shaft, chain.direction, path=chain.path, sensor=chain.body)
     # A stream of its own for each stage.
     streams = [np.random.default_rng([stage, counted("seed", seed, 0)]) for stage in range(3)]
     x, rate = _sensed(source, chain, streams[0]), source.fs
@@ -358,16 +375,19 @@ def measured(
     return Measurement(
         x=x, fs=rate, start=start, pulses=pulses, range=reach, clipped=clipped, chain=chain,
         seed=seed, shaft=source.rate, scene=of.scene if isinstance(of, Signals) else None,
-        warnings=of.warnings if isinstance(of, Signals) else (),
+        coupling=_coupled(of, chain), warnings=of.warnings if isinstance(of, Signals) else (),
     )  # fmt: skip
+
+
+def _coupled(of: object, chain: Chain) -> float | None:
+    if isinstance(of, Signals) and isinstance(chain.path, Structure):
+        return coupling(of.scene, chain.path)
+    return None
 
 
 def _sensed(source: Source, chain: Chain, rng: np.random.Generator) -> NDArray[np.float64]:
     """Return what the sensor gives."""
-    housing = () if chain.housing is None else (chain.housing,)
-    sensor = () if chain.sensor is None else (chain.sensor,)
-    if chain.machine is None:
-        # Housing and sensor in one go.
-        return passed(source.x, source.fs, (*housing, *sensor))
-    shaken = passed(source.x, source.fs, housing) + chain.machine.added(source, rng)
-    return passed(shaken, source.fs, sensor)
+    shaken = source.x
+    if chain.machine is not None:
+        shaken = shaken + chain.machine.added(source, rng)
+    return shaken if chain.sensor is None else passed(shaken, source.fs, [chain.sensor])

@@ -12,9 +12,9 @@ from .._base.numbers import counted
 from ..channel import Recorded
 from ..errors import SceneError
 from .chain import Chain
-from .housing import log_uniform, random_housing
 from .logger import Logger
 from .machine import MEASURED_FLOOR, Machine
+from .path import log_uniform, random_housing
 from .sensor import Sensor
 
 if TYPE_CHECKING:
@@ -41,7 +41,7 @@ _SWELLING = (0.3, 0.2, 0.1)
 _WANDER = 0.3
 """Largest wander of the noise."""
 _BAND = (800.0, 12_000.0)
-"""Modes of housings [Hz]."""
+"""Modes of paths [Hz]."""
 _RESONANCE = (15_000.0, 40_000.0)
 """Mounted resonance of sensors [Hz]: from glued on to screwed down."""
 
@@ -92,7 +92,7 @@ def random_machine(seed: int, *, background: Recorded | None = None) -> Machine:
 def random_chains(n: int, *, seed: int, background: Recorded | None = None) -> dict[str, Chain]:
     """Return random measuring chains, each of another machine.
 
-    Each has a sensor within 30° of the vertical with a mounted resonance of 15 to 40 kHz, a housing of
+    Each has a sensor within 30° of the vertical with a mounted resonance of 15 to 40 kHz, a path of
     :func:`random_housing` with modes from 0.8 to 12 kHz, a machine of :func:`random_machine` and a logger of 12,
     16 or 24 bits at the sampling rate of the signal.
 
@@ -114,7 +114,7 @@ def random_chains(n: int, *, seed: int, background: Recorded | None = None) -> d
     --------
     >>> chains = random_chains(3, seed=1)
     >>> list(chains), chains["machine 0"].stages
-    (['machine 0', 'machine 1', 'machine 2'], ('housing', 'machine', 'sensor', 'logger'))
+    (['machine 0', 'machine 1', 'machine 2'], ('path', 'machine', 'sensor', 'logger'))
     """
     n, seed = counted("n", n, 1), counted("seed", seed, 0)
     return {f"machine {k}": _chain([seed, k], background) for k in range(n)}
@@ -122,11 +122,11 @@ def random_chains(n: int, *, seed: int, background: Recorded | None = None) -> d
 
 def _chain(key: list[int], background: Recorded | None) -> Chain:
     rng = np.random.default_rng(key)
-    housing, machine = (int(number) for number in rng.integers(0, 2**31, 2))
+    path, machine = (int(number) for number in rng.integers(0, 2**31, 2))
     aside = rng.uniform(-math.pi / 6.0, math.pi / 6.0)
     return Chain(
         direction=(math.sin(aside), math.cos(aside), 0.0),
-        housing=random_housing(housing, band=_BAND),
+        path=random_housing(path, band=_BAND),
         machine=random_machine(machine, background=background),
         sensor=Sensor(resonance=float(log_uniform(rng, _RESONANCE, 1)[0])),
         logger=Logger(bits=int(rng.choice([12, 16, 24]))),

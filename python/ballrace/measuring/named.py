@@ -44,10 +44,10 @@ def table(chains: Chains) -> pl.DataFrame:
     Examples
     --------
     >>> import ballrace as br
-    >>> housings = {f"housing {k}": br.measuring.Chain(housing=br.measuring.random_housing(k)) for k in range(3)}
-    >>> found = br.measuring.table(housings)
+    >>> machines = {f"machine {k}": br.measuring.Chain(path=br.measuring.random_housing(k)) for k in range(3)}
+    >>> found = br.measuring.table(machines)
     >>> found.height, found.columns[:3]
-    (3, ['chain', 'body', 'housing.modes[0].frequency'])
+    (3, ['chain', 'path.modes[0].frequency', 'path.modes[0].damping'])
     """
     from .._base.polars import pl
 

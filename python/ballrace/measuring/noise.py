@@ -10,7 +10,6 @@ import numpy as np
 from .._base.numbers import positive
 from ..errors import SceneError
 from .checks import finite_row
-from .housing import MeasuredResponse
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -39,7 +38,7 @@ def noise(density: Density, fs: float, size: int, rng: np.random.Generator) -> N
     if not isinstance(density, tuple):
         return math.sqrt(0.5 * density * fs) * rng.standard_normal(size)
     # Filtered as if it went round and round, it is as strong at its ends as elsewhere.
-    shape = MeasuredResponse(density[0], np.sqrt(np.asarray(density[1])))
     spectrum = np.fft.rfft(noise(1.0, fs, size, rng))
     f = np.arange(spectrum.size, dtype=np.float64) * (fs / size)
-    return np.fft.irfft(spectrum * shape.transfer(f, fs), size)
+    shape = np.interp(f, np.asarray(density[0]), np.sqrt(np.asarray(density[1])), right=0.0)
+    return np.fft.irfft(spectrum * shape, size)

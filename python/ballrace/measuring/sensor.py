@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .._base.numbers import positive
-from .housing import Mode
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -46,17 +45,17 @@ class Sensor:
         """Return the frequency response."""
         total = np.ones(f.shape, dtype=np.complex128)
         if self.resonance is not None:
-            total *= self._mode(self.resonance).transfer(f)
+            s = f / self.resonance
+            total /= 1.0 - s**2 + 2.0j * self.damping * s
         if self.lower_limit is not None:
             total *= 1.0j * f / (self.lower_limit + 1.0j * f)
         return total
 
     def ringing(self, fs: float) -> float:
         """Time in which it dies down to a millionth [s]."""
-        time = 0.0 if self.resonance is None else self._mode(self.resonance).ringing
+        time = 0.0
+        if self.resonance is not None:
+            time += math.log(1e6) / (2.0 * math.pi * self.damping * self.resonance)
         if self.lower_limit is not None:
             time += math.log(1e6) / (2.0 * math.pi * self.lower_limit)
         return time
-
-    def _mode(self, resonance: float) -> Mode:
-        return Mode(frequency=resonance, damping=self.damping)

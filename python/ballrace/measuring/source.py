@@ -13,14 +13,18 @@ from .. import _core
 from .._base.numbers import real, real_row
 from ..channel import default_column
 from ..errors import SceneError
-from ..scene import MotionProbe
+from ..scene import MotionProbe, SeatProbe
 from ..scene.turning import constant_speeds
+from .path import axes, through
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import ArrayLike
 
     from ..scene import RingName, Scene
     from ..signals import Signals
+    from .path import Path
 
 __all__ = ["Source", "of_array", "of_signals"]
 
@@ -67,8 +71,11 @@ def of_array(
     fs: float | None,
     shaft: ArrayLike | None,
     direction: tuple[float, float, float] | None,
+    *,
+    path: Path | None,
+    sensor: str | None,
 ) -> Source:
-    """Return the source that an array is, of shape (n,), or (n, 3) of three axes.
+    """Return the source that an array is, of shape (n,), or (n, 3) of three axes; with a path, of forces.
 
     Raises
     ------
@@ -78,7 +85,10 @@ def of_array(
     if fs is None or not 0.0 < real(fs) < math.inf:
         raise SceneError("fs", repr(fs), "give fs=, the sampling rate of the array [Hz]")
     signal = real_row("x", x)
-    if signal.ndim == 2 and signal.shape[1] == 3:
+    if path is not None and (signal.ndim == 1 or signal.shape[1:] == (3,)):
+        force = signal if signal.ndim == 2 else np.outer(signal, (0.0, 1.0, 0.0))
+        signal = through(path, force, float(fs), unit(direction or (0.0, 1.0, 0.0)), sensor)
+    elif signal.ndim == 2 and signal.shape[1] == 3:
         signal = signal @ np.asarray(unit(direction or (0.0, 1.0, 0.0)))
     elif direction is not None:
         raise SceneError(
@@ -97,8 +107,9 @@ def of_signals(
     body: str | None,
     direction: tuple[float, float, float] | None,
     shaft: ArrayLike | None,
+    path: Path | None = None,
 ) -> Source:
-    """Return the acceleration of a body along a direction.
+    """Return the acceleration of a body along a direction, or at the end of a path from the seat.
 
     Raises
     ------
@@ -106,19 +117,43 @@ def of_signals(
         It was not recorded.
     """
     parts = unit(direction or (0.0, 1.0, 0.0))
-    name = _sensor(out) if body is None else probe_of(out.scene, body)
-    x = np.zeros(out.n_samples)
-    for axis, part in zip("xyz", parts, strict=True):
-        if part != 0.0:
-            if f"{name}.a{axis}" not in out:
-                wanted = f"the acceleration {name}.a{axis} among the columns: give the scene a probe of it"
-                raise SceneError("direction", repr(direction), wanted)
-            x += part * out[f"{name}.a{axis}"]
+    if path is None:
+        name = _sensor(out) if body is None else probe_of(out.scene, body)
+        x = _recorded(out, f"{name}.a", [part != 0.0 for part in parts], direction) @ parts
+    else:
+        force = _recorded(out, f"{_seat(out.scene)}.f", axes(path, parts), direction)
+        x = through(path, force, out.fs, parts, body)
     given = _angle(shaft, out.t)
     inner, against = (_ring_angle(out, "inner"), _against(out)) if given is None else (given, given)
     stands = inner is None or inner[-1] == inner[0]
     angle = against if stands else inner
     return Source(x=x, t=out.t, fs=out.fs, angle=angle, against=against)
+
+
+def _recorded(
+    out: Signals, name: str, needed: Sequence[bool], direction: object
+) -> NDArray[np.float64]:
+    """Return three columns as one array, 0 where they are not needed.
+
+    Raises
+    ------
+    SceneError
+        One is not there.
+    """
+    found = np.zeros((out.n_samples, 3))
+    for k, axis in enumerate("xyz"):
+        if needed[k]:
+            if f"{name}{axis}" not in out:
+                wanted = f"{name}{axis} among the columns, by a probe of the scene"
+                raise SceneError("direction", repr(direction), wanted)
+            found[:, k] = out[f"{name}{axis}"]
+    return found
+
+
+def _seat(scene: Scene) -> str:
+    """Return the name under which the force on the seat is recorded."""
+    names = [name for name, probe in scene.probes.items() if isinstance(probe, SeatProbe)]
+    return names[0] if names else "seat"
 
 
 def _sensor(out: Signals) -> str:
