@@ -180,7 +180,7 @@ def impacts(
     >>> scene = br.bearing("6205", defects=br.defects.spall(on="outer_race", width_mm=1.0), speed_rpm=1800.0)
     >>> fig = br.plot.impacts(br.simulate(scene, duration=0.03))
     >>> [trace.name for trace in fig.data]
-    ['vertical acceleration, outer ring', 'BPFO, 107.7 Hz']
+    ['vertical acceleration, housing sensor', 'BPFO, 107.7 Hz']
     """
     from .._base.plotly import Figure, Scatter
 

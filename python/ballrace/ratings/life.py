@@ -190,8 +190,8 @@ def rating_life(
     (2.0, 0.4, 4.0)
     >>> print(str(found).replace("; ", chr(10)))
     <RatingLife: L10 9275 h
-    L10r 7827 h, 8021 h by one cage position
-    L10mr 3.166e+04 h (a_ISO 4.05, κ 2.05 = ν/ν₁)>
+    L10r 7838 h, 8030 h by one cage position
+    L10mr 3.173e+04 h (a_ISO 4.05, κ 2.05 = ν/ν₁)>
     """
     healthy = replace(checked_scene(scene), defects={})
     if rating is not None:
