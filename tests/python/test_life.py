@@ -129,7 +129,7 @@ def test_lives_under_loads_that_change() -> None:
     cubes = float(np.mean(np.abs(500.0 + 2000.0 * np.sin(turn)) ** 3))
     assert life.basic == pytest.approx(1e6 * 14_000.0**3 / cubes, rel=1e-3)
     # By 200 points of the swing.
-    assert life.reference == pytest.approx(5.482e8, rel=1e-3)
+    assert life.reference == pytest.approx(5.493e8, rel=1e-3)
     # A triangle from 0 to 3 kN: the cubic mean is 3/4^(1/3) kN.
     triangle = Table(times=(0.0, 0.5, 2.0), values=(0.0, 3000.0, 0.0))
     life = br.rating_life(steady.replace({"loads.radial.force": triangle}))

@@ -619,7 +619,7 @@ def test_what_keeps_axial_places_is_refused_where_one_is_given(wheel: s.Scene, a
 def test_rings_that_are_led_are_not_the_record() -> None:
     """Their motion is known; the loads of the contacts are not."""
     led = {f"inner_ring.support.{d}": s.Given(-2e-5 if d == "y" else 0.0) for d in "xyz"}
-    held = br.bearing("6205", speed_rpm=1800.0).replace(
+    held = br.bearing("6205", housing=None, speed_rpm=1800.0).replace(
         {"probes": {}, "outer_ring.support": s.Support(), **led}
     )
     assert br.simulate(held, duration=1e-3, settle=0.0).names[0] == "row0.ball0.outer.load"
