@@ -86,8 +86,8 @@ def of_array(
         raise SceneError("fs", repr(fs), "give fs=, the sampling rate of the array [Hz]")
     signal = real_row("x", x)
     if path is not None and signal.shape[:1] > (1,) and signal.shape[1:] in {(), (3,)}:
+        _core.check_samples("x", signal.ravel())
         force = signal if signal.ndim == 2 else np.outer(signal, (0.0, 1.0, 0.0))
-        _core.check_samples("x", force.ravel())
         signal = through(path, force, float(fs), unit(direction or (0.0, 1.0, 0.0)), sensor)
     elif signal.ndim == 2 and signal.shape[1] == 3:
         signal = signal @ np.asarray(unit(direction or (0.0, 1.0, 0.0)))
