@@ -19,9 +19,10 @@ use crate::simd::Distrust;
 /// a converged run is 1.3 % and more, below it at most 0.8 %. Without the step cap an
 /// undamped run with an error of 11 % stays below.
 const LARGEST_RESIDUAL: f64 = 0.05;
-/// The same where the band of the record chose the steps: most of it is noise beyond the band, 9 % in a record that is right
-/// within 0.2 %.
-const LARGEST_BY_BAND: f64 = 0.25;
+/// The same where the band of the record chose the steps: most of it is noise beyond the band. Of 36 healthy bearings by chance on
+/// their pedestals the largest was 0.22, of a 6205 under 1500 N it is 0.30, and their rings err by 0.3 and 0.9 % in the band; a wheel
+/// whose heavy balls are wrong by 67 % has 0.53.
+const LARGEST_BY_BAND: f64 = 0.4;
 
 /// Share of the orbit's rate above which its loss is warned of: with friction balls slip by less than that.
 const LARGEST_LOSS: f64 = 0.005;
