@@ -26,7 +26,7 @@ impl Fineness {
     /// others by up to 2.6 %.
     const IN_BAND: Self = Self {
         rtol: 1e-4,
-        cap_factor: 1.4,
+        cap_factor: 1.2,
         by_band: true,
     };
 

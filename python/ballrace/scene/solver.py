@@ -30,7 +30,7 @@ class Solver(Part):
         the explicit Runge-Kutta pairs take for the same error; stiff friction does not shorten its steps.
     rtol : float or "band"
         Relative tolerance [1], 1e-12 to 1e-1; each kind of state has its scale from the scene. ``"band"``: as the
-        record needs it, 1e-4 with 1.4 times the step cap where signals are filtered to 20.5 kHz and less (``fs``
+        record needs it, 1e-4 with 1.2 times the step cap where signals are filtered to 20.5 kHz and less (``fs``
         of 51.2 kHz and less), friction fades at 0.05 m/s or more and contacts are damped, else 1e-7
         (``provenance.by_band``). In a document that does not say it, 1e-7.
     first_step : float or None
