@@ -2,8 +2,9 @@
 
     python benches/in_band.py samples|statistics [--only NAME] [--drawn COUNT] [-o FILE]
 
-``samples``: the error of the sensor's or the outer ring's acceleration along x, y and z behind the recorder's filter
-over one millisecond (relative L2, median of ten developed states of each scene), against rtol 1e-10 with half the cap.
+``samples``: the error of the sensor's or the outer ring's acceleration along x, y and z behind the recorder's
+filter over one millisecond (relative L2, median of ten developed states of each scene), against rtol 1e-10 with
+half the cap.
 ``statistics``: rms in octave bands to 20 kHz, kurtosis, crest and the lines of the ball passes over 0.3 s of eight
 starts 1e-7 apart, against those of the default of raw signals (rtol 1e-7, the cap once); a number is biased where
 Welch's t-test finds its mean apart at 1 %. ``--drawn``: of so many spalled bearings by chance instead, at the

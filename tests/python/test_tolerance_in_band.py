@@ -67,9 +67,10 @@ def test_it_is_right_in_the_band(scene: br.Scene) -> None:
     start = br.simulate(scene, duration=0.01)
     limit = br.simulate(scene, **SHORT, rtol=1e-7).provenance.step_limit
     fine = scene.replace({"solver.max_step": 0.5 * limit, "solver.rtol": 1e-10})
-    truth = br.simulate(fine, duration=1e-3, start=start)["outer.ay"]
+    seen = "housing.sensor.ay"
+    truth = br.simulate(fine, duration=1e-3, start=start)[seen]
     found = br.simulate(scene, duration=1e-3, start=start)
-    assert np.linalg.norm(found["outer.ay"] - truth) < 0.01 * np.linalg.norm(truth)
+    assert np.linalg.norm(found[seen] - truth) < 0.01 * np.linalg.norm(truth)
     exact = br.simulate(scene, duration=1e-3, start=start, rtol=1e-7)
     assert found.stats.nfev < 0.7 * exact.stats.nfev
     assert found.provenance.step_limit == pytest.approx(1.2 * exact.provenance.step_limit)
