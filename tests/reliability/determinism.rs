@@ -38,8 +38,8 @@ fn effort_is_pinned() {
         ..Run::default()
     };
     for (scene, steps) in [
-        (presets::wheel_bearing(3000.0), (127, 3)),
-        (presets::deep_groove_6205(500.0, 0.0, 1800.0), (261, 3)),
+        (presets::wheel_bearing(3000.0), (142, 3)),
+        (presets::deep_groove_6205(500.0, 0.0, 1800.0), (302, 3)),
     ] {
         let out = simulate(&scene, &run).unwrap();
         let stats = out.stats;
