@@ -49,7 +49,7 @@ CHOSEN, FRESH = range(1, 5), range(5, 13)
 RTOL = 1e-4
 
 Values = dict[str, float]
-"""What is not published, by the names of ``UNKNOWNS`` [SI]."""
+"""Values of what is not published, by the names of ``UNKNOWNS`` [SI]."""
 
 
 @dataclass(frozen=True)
@@ -98,7 +98,7 @@ SCALES = {
     "largest_away": 10.0,
     "transient": 3e-3,
 }
-"""What counts as one in the penalty, in the unit of each target that a search judges by runs."""
+"""Scale of each target in the penalty, in its unit, of those that a search judges by runs."""
 
 
 def preset(damping: br.presets.Damping) -> Values:

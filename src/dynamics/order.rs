@@ -63,7 +63,7 @@ impl Dynamics<'_> {
         }
     }
 
-    /// Whether one row stands for two.
+    /// Rows of the run: whether one stands for two.
     pub(crate) fn is_mirrored(&self) -> bool {
         self.contacts.is_mirrored()
     }

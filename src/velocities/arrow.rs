@@ -182,7 +182,7 @@ impl<const N: usize> Arrow<N> {
     }
 
     /// Eliminates eight balls from the right-hand side.
-    // In registers: of loops over lanes the compiler makes gathers along the matrices, four times as slow.
+    // In registers: of loops over lanes the compiler makes gathers along the matrices (`benches/records.md`).
     #[inline(always)]
     pub fn eliminate_right<S: Simd>(&mut self, simd: S, eight: usize, right: &[Lanes; N]) {
         let EightBalls {
@@ -333,13 +333,13 @@ mod tests {
     }
 
     /// The unknowns of the rings and of sixteen balls.
-    struct Solved<'a, const N: usize> {
+    struct SolveArrow<'a, const N: usize> {
         arrow: &'a mut Arrow<N>,
         right: [[Lanes; N]; 2],
         ring_right: OnBothRings<N>,
     }
 
-    impl<const N: usize> Wide for Solved<'_, N> {
+    impl<const N: usize> Wide for SolveArrow<'_, N> {
         type Output = (OnBothRings<N>, [[Lanes; N]; 2]);
 
         fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
@@ -386,7 +386,7 @@ mod tests {
             arrow.eliminate::<true>(eight, &contacts, &scale.map(Lanes::all));
         }
         arrow.factorise(&[[9.0; N]; 2], &carriers);
-        let (rings, balls) = InstructionSet::current().run_wide(Solved {
+        let (rings, balls) = InstructionSet::current().run_wide(SolveArrow {
             arrow: &mut arrow,
             right: from_fn(|eight| from_fn(|i| Lanes::from_fn(|lane| right(eight, lane)[i]))),
             ring_right,

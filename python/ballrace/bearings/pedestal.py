@@ -32,20 +32,15 @@ _FEET: tuple[_Line, ...] = (
 )
 """Frequency [Hz], damping ratio, modal mass [kg], shapes at seat and sensor: a casting on bolts and a plate."""
 _WALLS: tuple[_Line, ...] = (
-    (
-        2700.0,
-        0.035,
-        0.50,
-        (0.08, 0.08, 0.0),
-        (0.5, 1.0, 0.5),
-    ),  # the cap, which hardly moves the seat
+    # The cap, which hardly moves the seat.
+    (2700.0, 0.035, 0.50, (0.08, 0.08, 0.0), (0.5, 1.0, 0.5)),
     (4800.0, 0.035, 0.28, (0.15, 0.5, 0.0), (-0.5, -1.0, -0.5)),
     (6100.0, 0.035, 0.22, (-0.15, 0.3, 0.0), (-0.5, 1.0, 0.5)),
     (7500.0, 0.035, 0.18, (0.15, 0.5, 0.0), (-0.5, -1.0, 0.5)),
     (9800.0, 0.035, 0.135, (-0.15, 0.5, 0.0), (-0.5, 1.0, 0.5)),
     (12_000.0, 0.035, 0.11, (0.15, 0.5, 0.0), (-0.5, -1.0, 0.5)),
 )
-"""The same of the casting's walls between seat and sensor, whose masses go with one over their frequencies."""
+"""Walls of the casting between seat and sensor, likewise; their masses go with one over their frequencies."""
 
 
 def pedestal(outside_diameter: float, count: float = 1.0) -> Structure:

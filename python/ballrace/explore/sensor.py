@@ -75,8 +75,9 @@ def sound(channel: Channel) -> bytes:
     ramp = np.ones(x.size)
     ramp[:fade] = np.linspace(0.0, 1.0, fade)
     ramp[x.size - fade :] = np.linspace(1.0, 0.0, fade)
+    x *= ramp
     largest = float(np.abs(x).max(initial=0.0)) or 1.0
     buffer = io.BytesIO()
-    samples = np.round(32767.0 * _PEAK * ramp * x / largest).astype(np.int16)
+    samples = np.round(32767.0 * _PEAK * x / largest).astype(np.int16)
     wavfile.write(buffer, round(channel.fs), samples)
     return buffer.getvalue()

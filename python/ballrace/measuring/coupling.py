@@ -1,4 +1,4 @@
-"""How much a path would act back on the ring, were it in the scene."""
+"""Coupling of a path: how much its modes would act back on the ring, were they in the scene."""
 
 from __future__ import annotations
 

@@ -141,7 +141,7 @@ def through(
     direction: tuple[float, ...],
     sensor: str | None,
 ) -> NDArray[np.float64]:
-    """Return the acceleration at a sensor by a force on the seat, shape (n, 3).
+    """Return the acceleration at a sensor, shape (n,), by the force on the seat, shape (n, 3).
 
     Raises
     ------

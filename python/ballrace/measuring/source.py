@@ -120,9 +120,16 @@ def of_signals(
     parts = unit(direction or (0.0, 1.0, 0.0))
     if path is None:
         name = _sensor(out) if body is None else probe_of(out.scene, body)
-        x = _recorded(out, f"{name}.a", [part != 0.0 for part in parts], direction) @ parts
+        x = (
+            _recorded(
+                out, f"{name}.a", [part != 0.0 for part in parts], ("direction", repr(direction))
+            )
+            @ parts
+        )
     else:
-        force = _recorded(out, f"{_seat(out.scene)}.f", axes(path, parts), direction)
+        force = _recorded(
+            out, f"{_seat(out.scene)}.f", axes(path, parts), ("path", f"a {type(path).__name__}")
+        )
         x = through(path, force, out.fs, parts, body)
     given = _angle(shaft, out.t)
     inner, against = (_ring_angle(out, "inner"), _against(out)) if given is None else (given, given)
@@ -132,9 +139,9 @@ def of_signals(
 
 
 def _recorded(
-    out: Signals, name: str, needed: Sequence[bool], direction: object
+    out: Signals, name: str, needed: Sequence[bool], by: tuple[str, str]
 ) -> NDArray[np.float64]:
-    """Return three columns as one array, 0 where they are not needed.
+    """Return three columns as one array, 0 where they are not needed; ``by`` is the argument that wants them.
 
     Raises
     ------
@@ -146,7 +153,9 @@ def _recorded(
         if needed[k]:
             if f"{name}{axis}" not in out:
                 wanted = f"{name}{axis} among the columns, by a probe of the scene"
-                raise SceneError("direction", repr(direction), wanted)
+                if by[0] == "path":
+                    wanted += ": the force on the seat of a structure (br.scene.SeatProbe)"
+                raise SceneError(*by, wanted)
             found[:, k] = out[f"{name}{axis}"]
     return found
 
