@@ -9,7 +9,7 @@ use crate::dynamics::{Dynamics, contribution_names, contributions_with_films};
 use crate::forces::cage::ring::carrier;
 use crate::inspect::{self, Energy, Lubrication, MOMENTS};
 use crate::model::{BodyId, Dof, Model, Race, StructureModel};
-use crate::scene::{Component, ContactQuantity, Probe, RingName, Scene, Structure};
+use crate::scene::{Component, ContactQuantity, Probe, RingName, Scene, Slices, Structure};
 use crate::statics::compile;
 
 /// Names and units of what a scene records.
@@ -18,10 +18,11 @@ use crate::statics::compile;
 /// [`crate::Error::Scene`] for a scene that is not usable.
 pub(crate) fn columns(scene: &Scene) -> Result<Vec<Column>> {
     scene.validate()?;
-    // What is recorded does not depend on defects, nor on where they are placed.
-    let mut healthy = scene.clone();
-    healthy.defects.clear();
-    Ok(Probes::new(&compile(&healthy)?).columns)
+    // What is recorded depends neither on defects, nor on how contacts are cut, which may take seconds.
+    let mut plain = scene.clone();
+    plain.defects.clear();
+    plain.contact.slices = Slices::Fitted(2);
+    Ok(Probes::new(&compile(&plain)?).columns)
 }
 
 /// A probe with its indices looked up.
