@@ -6,10 +6,13 @@
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::time::Instant;
 
-use ballrace::scene::{Defect, Friction, Lubricant, Patch, Pit, Scene, Surface, Texture, presets};
+use ballrace::scene::presets::Arrangement;
+use ballrace::scene::{
+    Defect, Friction, Lubricant, Patch, Pit, Scene, Spin, Surface, Texture, catalogue, presets,
+};
 use ballrace::{Run, simulate};
 
-fn scenes() -> [(&'static str, Scene); 10] {
+fn scenes() -> [(&'static str, Scene); 13] {
     let dry = presets::deep_groove_6205(500.0, 0.0, 1797.0);
     let mut oiled = dry.clone();
     oiled.lubricant = Some(Lubricant::named("vg68", 328.15));
@@ -27,8 +30,14 @@ fn scenes() -> [(&'static str, Scene); 10] {
     let pit = |on| Defect::of(Pit::of_width(0.178e-3), on, -std::f64::consts::FRAC_PI_2);
     let pits = [pit(Surface::OuterRace), pit(Surface::Ball).on_ball(0)].map(pitted);
     let [pitted_race, pitted_ball] = pits;
-    let spalled = |width: f64| {
-        let mut scene = dry.clone();
+    let mut pair = presets::angular_contact_pair(Arrangement::BackToBack, 1000.0, 500.0, 1797.0);
+    become_of(&mut pair, "7208B");
+    let mut free = presets::deep_groove_6205(500.0, 800.0, 1797.0);
+    become_of(&mut free, "7205B");
+    free.spin = Some(Spin::Free);
+    let mut larger = dry.clone();
+    become_of(&mut larger, "6206");
+    let spalled = |mut scene: Scene, width: f64| {
         let patch = Patch::of_width(width).length(3e-3).edge_radius(30e-6);
         let spall = Defect::of(patch, Surface::OuterRace, -std::f64::consts::FRAC_PI_2);
         scene.defects.insert("spall".to_owned(), spall);
@@ -37,15 +46,38 @@ fn scenes() -> [(&'static str, Scene); 10] {
     [
         ("wheel bearing", presets::wheel_bearing(3000.0)),
         ("6205", dry.clone()),
-        ("6205 spall 0.5 mm", spalled(0.5e-3)),
-        ("6205 spall 1.5 mm", spalled(1.5e-3)),
+        ("6205 spall 0.5 mm", spalled(dry.clone(), 0.5e-3)),
+        ("6205 spall 1.5 mm", spalled(dry.clone(), 1.5e-3)),
+        ("6206 spall 0.8 mm", spalled(larger, 0.8e-3)),
         ("6205 pitted race", pitted_race),
         ("6205 pitted ball", pitted_ball),
         ("6205 in oil", oiled),
         ("6205 textured", textured),
         ("plane 6205", plane),
+        ("7208B pair", pair),
+        ("free 7205B", free),
         ("cornering wheel", presets::cornering_wheel(0.3)),
     ]
+}
+
+/// Puts the rows and rings of another bearing into a scene.
+fn become_of(scene: &mut Scene, designation: &str) {
+    let bearing = catalogue::find(designation).expect("it is there");
+    for row in &mut scene.rows {
+        let of = bearing.row();
+        (row.ball_count, row.ball_diameter) = (of.ball_count, of.ball_diameter);
+        (row.pitch_diameter, row.contact_angle) = (of.pitch_diameter, of.contact_angle);
+        row.outer_conformity = of.outer_conformity;
+        row.inner_conformity = of.inner_conformity;
+        row.axial_position *= bearing.width / 15e-3;
+    }
+    let rows = scene.rows.len() as f64;
+    for (ring, diameter) in [
+        (&mut scene.outer_ring, bearing.outside_diameter),
+        (&mut scene.inner_ring, bearing.bore),
+    ] {
+        (ring.diameter, ring.width) = (Some(diameter), Some(rows * bearing.width));
+    }
 }
 
 fn main() {

@@ -7,7 +7,18 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from . import draw
-from .setting import DEFAULT, Case, Effort, bearing, best, integrated, settled, survey, truth
+from .setting import (
+    DEFAULT,
+    IN_BAND,
+    Case,
+    Effort,
+    bearing,
+    best,
+    integrated,
+    settled,
+    survey,
+    truth,
+)
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -15,7 +26,7 @@ if TYPE_CHECKING:
 NAME = "signals"
 TRUE = "fitted 64"
 OWN = "fitted 6"
-CAPS = (math.inf, 1.0, 0.9, 0.5, 0.25)
+CAPS = (math.inf, IN_BAND.cap, 0.9, 0.5, 0.25)
 TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10)
 CUTS = (
     *(f"fitted {n}" for n in (4, 6, 8, 12, 16, 24, 32)),
@@ -24,7 +35,7 @@ CUTS = (
 DRAWN = (*(f"fitted {n}" for n in (6, 12, 16, 24, 32)), *(f"fixed {n}" for n in (50, 100, 400)))
 FINE = Effort("adams", 1e-8, 0.3)
 EFFORTS = (
-    Effort("adams", 1e-4, 0.9),
+    IN_BAND,
     Effort("adams", 1e-6, 0.9),
     DEFAULT,
     FINE,
@@ -72,12 +83,19 @@ def draw_chart(rows: list[dict[str, Any]], path: Path) -> None:
     figure, (left, right) = draw.panels(
         ["Steps: with the cap any tolerance will do", "Nodes: they decide, not the steps"]
     )
-    colours = {math.inf: draw.RED, 0.9: draw.BLUE, 0.5: draw.ORANGE, 0.25: draw.GREEN}
+    colours = {
+        math.inf: draw.RED,
+        IN_BAND.cap: draw.PURPLE,
+        0.9: draw.BLUE,
+        0.5: draw.ORANGE,
+        0.25: draw.GREEN,
+    }
     for cap, colour in colours.items():
         mine = [r for r in rows if (r["error_of"], r["cap"]) == ("integration", cap)]
         label = "no cap" if math.isinf(cap) else f"cap × {cap:g}"
-        x, y = [r["evaluations"] for r in mine], [r["error"] for r in mine]
-        draw.line(left, x, y, label, colour)
+        x = [r["evaluations"] for r in mine]
+        draw.line(left, x, [r["error"] for r in mine], label, colour)
+        draw.line(left, x, [r["error_in_band"] for r in mine], "", colour, style="o:")
     total = [r for r in rows if r["error_of"] == "total"]
     for cut in DRAWN:
         mine = [r for r in total if r["slices"] == cut]
@@ -89,6 +107,8 @@ def draw_chart(rows: list[dict[str, Any]], path: Path) -> None:
     for cut in ("fitted 6", "fitted 16", "fitted 24"):
         floor = best([r for r in total if r["slices"] == cut], "wall_ms")[-1]["error"]
         draw.level(left, floor, f"model error, {cut.split()[1]} nodes")
-    left.set(xlabel="evaluations for 6 ms", ylabel="relative error of outer.ay")
+    left.set(
+        xlabel="evaluations for 6 ms", ylabel="relative error of outer.ay\n(dotted: below 20 kHz)"
+    )
     right.set(xlabel="wall time for 6 ms, ms")
     draw.save(figure, path)
