@@ -1,6 +1,7 @@
 """Records of a spall by the machine around the bearing, beside measured ones.
 
-    python benches/housing.py [--seconds S] [--groups OR5 IR5 …] [--picture docs/figures/housing.svg] [--levels]
+    python benches/housing.py [--seconds S] [--groups OR5 IR5 …] [--picture docs/figures/housing.svg]
+                              [--levels] [--edges]
 
 HIT-SM (Harbin Institute of Technology, SpectraQuest half; see ``verdict_measured.py`` for the folder): a 6205
 under 49 N with damage over 2, 5 and 8 degrees of a race. Its unit is not given, so levels are over the whole. Each
@@ -8,6 +9,7 @@ figure is the median of 600, 900 and 1200 1/min, between 50 Hz and 20 kHz: rms [
 time in which impacts fall by 20 dB, and the level of bands over that of the whole [dB]. Beside them runs on the
 pedestal, dry and with oil between balls and races, on the lump of 0.8 kg at 1 kHz of version 0.3, and on a stiff
 spring alone. ``--levels``: rms on the pedestal by the width of a spall on the outer race, which it does not tell.
+``--edges``: level and kurtosis of shapes of a seeded spall beside records of Case Western Reserve University.
 """
 
 from __future__ import annotations
@@ -15,18 +17,28 @@ from __future__ import annotations
 import argparse
 import math
 import warnings
+from functools import partial
 from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from scipy.signal import butter, hilbert, sosfiltfilt
+from scipy.signal import butter, hilbert, resample_poly, sosfiltfilt
 
 import ballrace as br
 from verdict_measured import DATA, records
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
+
+    from ballrace.defects import Surface
+
+
+def _spall(on: Surface, width: float, **sizes: float) -> br.scene.Defect:
+    return br.defects.spall(on=on, width_mm=width, **sizes)  # type: ignore[arg-type]
+
 
 RPMS = (600, 900, 1200)
 FS, BEGIN = 51_200.0, 0.1
@@ -42,6 +54,30 @@ LUMP = {
     },
 }
 
+SEEDED: dict[str, tuple[Surface, float]] = {
+    "105": ("inner_race", 0.18),
+    "130": ("outer_race", 0.18),
+    "209": ("inner_race", 0.53),
+    "234": ("outer_race", 0.53),
+}
+"""Race and diameter [mm] of the holes of Case Western Reserve University's records."""
+BEGIN_SEEDED = 4800
+SHAPES: dict[str, Callable[[Surface, float], br.scene.Defect]] = {
+    **{
+        f"spall, edges of {radius:g} mm": partial(_spall, edge_radius_mm=radius)
+        for radius in (0.02, 0.05, 0.1, 0.2, 0.3)
+    },
+    "as long as wide": lambda on, width: br.defects.spall(on=on, width_mm=width, length_mm=width),
+    **{
+        f"floor at {depth:g} µm": partial(_spall, depth_mm=1e-3 * depth)
+        for depth in (1.0, 2.0, 2.5, 3.0, 4.0)
+    },
+    "pit": lambda on, width: br.defects.pit(on=on, diameter_mm=width),
+    "pit, rim of 1 µm": lambda on, width: br.defects.dent(
+        on=on, diameter_mm=width, depth_mm=0.28, rim_height_mm=1e-3
+    ),
+}
+"""Shapes of a seeded spall; those with edges or a floor are 2 mm long."""
 
 OIL: dict[str, Any] = {"lubricant": "vg68", "temperature_c": 40.0}
 WAYS: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
@@ -65,10 +101,14 @@ def scene(group: str, rpm: float, way: str) -> br.Scene:
     return of.replace(changes)
 
 
-def facts(x: NDArray[np.float64], passes: float) -> dict[str, float]:
-    """Return the figures of a record with impacts at a rate [Hz]."""
+def facts(x: NDArray[np.float64], passes: float, seconds: float) -> dict[str, float]:
+    """Return the figures of a record with impacts at a rate [Hz].
+
+    The crest factor grows with the length of a record: it is the median over pieces of some length [s].
+    """
     x = sosfiltfilt(butter(4, BAND, "bandpass", fs=FS, output="sos"), x - x.mean())
     rms = float(np.sqrt(np.mean(x**2)))
+    pieces = np.array_split(x, max(1, round(x.size / (FS * seconds))))
     power = np.abs(np.fft.rfft(x)) ** 2
     f = np.fft.rfftfreq(x.size, 1.0 / FS)
     levels = {
@@ -79,7 +119,7 @@ def facts(x: NDArray[np.float64], passes: float) -> dict[str, float]:
     return {
         "rms": rms,
         "kurtosis": float(np.mean(x**4) / rms**4),
-        "crest": float(np.abs(x).max() / rms),
+        "crest": float(np.median([np.abs(p).max() for p in pieces]) / rms),
         "−20 dB, ms": 1e3 * decay(x, passes),
     } | levels
 
@@ -108,15 +148,16 @@ def rate(group: str, rpm: float) -> float:
     return rpm / 60.0 * (orders.bpfo if group.startswith("OR") else orders.bpfi)
 
 
-def measured(group: str) -> list[dict[str, float]]:
+def measured(group: str, seconds: float) -> list[dict[str, float]]:
     """Return the figures of a group's records."""
     found = {each.name: each for each in records(DATA) if each.collection == "HIT-SM"}
-    return [facts(found[f"{group}_{rpm}"].x, rate(group, rpm)) for rpm in RPMS]
+    return [facts(found[f"{group}_{rpm}"].x, rate(group, rpm), seconds) for rpm in RPMS]
 
 
 def simulated(group: str, seconds: float, way: str) -> list[dict[str, float]]:
     """Return the figures of a group's runs."""
-    return [facts(ran(scene(group, rpm, way), seconds), rate(group, rpm)) for rpm in RPMS]
+    runs = [(ran(scene(group, rpm, way), seconds), rate(group, rpm)) for rpm in RPMS]
+    return [facts(x, passes, seconds) for x, passes in runs]
 
 
 def ran(of: br.Scene, seconds: float) -> NDArray[np.float64]:
@@ -137,8 +178,8 @@ def table(groups: list[str], seconds: float) -> str:
     lines: list[str] = []
     for group in groups:
         for name in ("HIT-SM", *WAYS):
-            rows = measured(group) if name == "HIT-SM" else simulated(group, seconds, name)
-            found = median(rows)
+            of = measured(group, seconds) if name == "HIT-SM" else simulated(group, seconds, name)
+            found = median(of)
             if not lines:
                 lines += [f"| | | {' | '.join(found)} |", "|---|---|" + "---|" * len(found)]
             cells = [f"{v:.2g}" if abs(v) < 10.0 else f"{v:.0f}" for v in found.values()]
@@ -156,6 +197,38 @@ def levels() -> str:
         rms = [br.simulate(of, duration=0.3).channel().x.std() for of in made]
         lines.append(f"| {load:g} | " + " | ".join(f"{x:.3g}" for x in rms) + " |")
     return "\n".join(lines)
+
+
+def edges() -> str:
+    """Return rms [m/s²] and kurtosis at 12 kHz of shapes of a seeded spall, beside the records with its sizes.
+
+    Load, thrust and clearance are those of ``tests/python/measured_6205.py``, where they are assumed.
+    """
+    found = {each.name: each for each in records(DATA) if each.collection == "CWRU"}
+    lines = [f"| | {' | '.join(SEEDED)} |", "|---|" + "---|" * len(SEEDED)]
+    rows = {"measured": [_level(9.81 * found[name].x) for name in SEEDED]}
+    for shape, made in SHAPES.items():
+        spalls = [made(on, width) for on, width in SEEDED.values()]
+        rows[shape] = [_level(resample_poly(_seeded(d)[BEGIN_SEEDED:], 1, 4)) for d in spalls]
+    for shape, levels_of in rows.items():
+        lines.append(f"| {shape} | {' | '.join(levels_of)} |")
+    return "\n".join(lines)
+
+
+def _seeded(spall: br.scene.Defect) -> NDArray[np.float64]:
+    """Return what the sensor measures of a spall at 48 kHz."""
+    of = br.bearing(
+        "6205", radial_load=300.0, axial_load=80.0, speed_rpm=1797.0, clearance=5e-6, defects=spall
+    )  # fmt: skip
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return np.asarray(br.simulate(of, duration=0.4, fs=48e3)["housing.sensor.ay"])
+
+
+def _level(x: NDArray[np.float64]) -> str:
+    """Return root mean square and kurtosis of a record."""
+    x = x - x.mean()
+    return f"{x.std():.3g}, {np.mean(x**4) / x.var() ** 2:.2g}"
 
 
 def draw(path: Path) -> None:
@@ -188,9 +261,12 @@ def main() -> None:
     parser.add_argument("--groups", nargs="+", default=["OR2", "OR5", "OR8", "IR2", "IR5", "IR8"])
     parser.add_argument("--picture", type=Path, help="draw passes of OR5 instead")
     parser.add_argument("--levels", action="store_true", help="levels over widths instead")
+    parser.add_argument("--edges", action="store_true", help="shapes of seeded spalls instead")
     options = parser.parse_args()
     if options.levels:
         print(levels())
+    elif options.edges:
+        print(edges())
     elif options.picture is None:
         print(table(options.groups, options.seconds))
     else:

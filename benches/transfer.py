@@ -1,6 +1,6 @@
 """Train on simulated records alone and test on measured ones; writes benches/transfer.md.
 
-    python benches/transfer.py [--runs FOLDER] [--per-class 48] [-o FILE]
+    python benches/transfer.py [--runs FOLDER] [--per-class 48] [--domain] [-o FILE]
 
 Records of HIT-SM (21) and CWRU (3) are looked for in the folders ``hit-sm`` and ``cwru`` of $BALLRACE_DATA, by
 default ``../shared/data`` beside the project. Four sets are simulated: the whole recipe, smooth surfaces, equal
@@ -378,6 +378,11 @@ def main() -> None:
     parser.add_argument(
         "--per-class", type=int, default=48, help="runs of each class (default: %(default)s)"
     )
+    parser.add_argument(
+        "--domain",
+        action="store_true",
+        help="print only how simulated records differ from measured ones",
+    )
     parser.add_argument("-o", "--output", type=Path, default=ROOT / "benches" / "transfer.md")
     options = parser.parse_args()
     warnings.simplefilter("ignore")
@@ -385,7 +390,11 @@ def main() -> None:
     if not records:
         parser.error(f"no records in {DATA}: set BALLRACE_DATA")
     with tempfile.TemporaryDirectory() as temporary:
-        page = report(options.runs or Path(temporary), options.per_class, records)
+        folder = options.runs or Path(temporary)
+        if options.domain:
+            print(domain(simulated(folder, "the whole recipe", options.per_class), records))
+            return
+        page = report(folder, options.per_class, records)
     options.output.write_text(page, encoding="utf-8")
 
 

@@ -57,14 +57,32 @@ impl Table {
         std::array::from_fn(|_| chunks.next().unwrap_or_default())
     }
 
+    /// Where the number of a body stands in all tables of so many bodies.
+    #[inline(always)]
+    pub fn slot(&self, body: BodyId, dof: Dof) -> usize {
+        dof.index() * self.stride + body.index()
+    }
+
+    /// The number at a [`Table::slot`].
+    #[inline(always)]
+    pub fn at(&self, slot: usize) -> f64 {
+        self.values[slot]
+    }
+
+    #[inline(always)]
+    pub fn at_mut(&mut self, slot: usize) -> &mut f64 {
+        &mut self.values[slot]
+    }
+
     #[inline(always)]
     pub fn get(&self, body: BodyId, dof: Dof) -> f64 {
-        self.values[dof.index() * self.stride + body.index()]
+        self.at(self.slot(body, dof))
     }
 
     #[inline(always)]
     pub fn get_mut(&mut self, body: BodyId, dof: Dof) -> &mut f64 {
-        &mut self.values[dof.index() * self.stride + body.index()]
+        let slot = self.slot(body, dof);
+        self.at_mut(slot)
     }
 
     /// The numbers of a body.

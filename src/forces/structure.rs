@@ -37,18 +37,18 @@ impl Force for Seat {
         let Some(structure) = &model.structure else {
             return;
         };
-        let layout = model.layout();
+        let modes = model.layout().modes();
         let stretch = [&at.state.q, &at.state.v].map(|half| {
             let ring = Dof::TRANSLATIONS.map(|dof| half.get(BodyId::OUTER, dof));
-            let seat = structure.at_seat(layout, |body| half.get(body, Dof::X));
-            Vector3::from(ring) - seat
+            Vector3::from(ring) - structure.at_seat(half.along(Dof::X)[modes.clone()].iter())
         });
         let force = structure.force(stretch);
         for (dof, force) in Dof::TRANSLATIONS.into_iter().zip(force.iter()) {
             *sums.on.get_mut(BodyId::OUTER, dof) -= force;
         }
-        for (body, mode) in structure.each(layout) {
-            *sums.on.get_mut(body, Dof::X) += mode.seat.dot(&force);
+        let on_modes = &mut sums.on.along_mut(Dof::X)[modes];
+        for (sum, mode) in on_modes.iter_mut().zip(&structure.modes) {
+            *sum += mode.seat.dot(&force);
         }
     }
 

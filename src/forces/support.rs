@@ -63,9 +63,8 @@ pub(crate) fn resistance(spring: &Spring, place: f64, speed: f64) -> f64 {
 #[inline]
 fn add(springs: &[Spring], state: &State, forces: &mut Table) {
     for spring in springs {
-        let (body, dof) = (spring.body, spring.dof);
-        let resistance = resistance(spring, state.q.get(body, dof), state.v.get(body, dof));
-        *forces.get_mut(body, dof) -= resistance;
+        let slot = forces.slot(spring.body, spring.dof);
+        *forces.at_mut(slot) -= resistance(spring, state.q.at(slot), state.v.at(slot));
     }
 }
 

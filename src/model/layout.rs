@@ -217,6 +217,12 @@ impl Layout {
         BodyId(RINGS + self.balls() + row)
     }
 
+    /// The numbers of the modes among all bodies.
+    #[inline]
+    pub(crate) const fn modes(self) -> Range<usize> {
+        self.bodies - self.modes..self.bodies
+    }
+
     /// A mode of the structure.
     #[inline]
     pub const fn mode(self, mode: usize) -> BodyId {

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
-use super::{Body, BodyId, Degree, Dof, Layout, Race};
+use super::{Body, Degree, Dof, Layout, Race};
 use crate::scene::{self, Compliance};
 
 /// A structure with modes ([*A structure with modes*](crate::equations#a-structure-with-modes)).
@@ -80,19 +80,12 @@ impl StructureModel {
         })
     }
 
-    /// The modes with their bodies.
-    #[inline]
-    pub fn each(&self, layout: Layout) -> impl Iterator<Item = (BodyId, &ModeModel)> {
-        let modes = self.modes.iter().enumerate();
-        modes.map(move |(i, mode)| (layout.mode(i), mode))
-    }
-
     /// Displacement of the seat by coordinates of the modes, or its rate by theirs.
     #[inline]
-    pub fn at_seat(&self, layout: Layout, coordinate: impl Fn(BodyId) -> f64) -> Vector3<f64> {
+    pub fn at_seat<'c>(&self, coordinates: impl Iterator<Item = &'c f64>) -> Vector3<f64> {
         let mut moved = Vector3::zeros();
-        for (body, mode) in self.each(layout) {
-            moved += mode.seat * coordinate(body);
+        for (mode, coordinate) in self.modes.iter().zip(coordinates) {
+            moved += mode.seat * *coordinate;
         }
         moved
     }
@@ -108,15 +101,15 @@ impl StructureModel {
         let (q, v) = y.split_at(layout.half());
         [q, v].map(|half| {
             let ring = Dof::TRANSLATIONS.map(|dof| half[layout.at(Race::Outer.ring(), dof)]);
-            let seat = self.at_seat(layout, |body| half[layout.at(body, Dof::X)]);
-            Vector3::from(ring) - seat
+            Vector3::from(ring) - self.at_seat(coordinates(layout, half))
         })
     }
 
     /// Lets the modes rest under the force of the ring where it is in a state of all bodies.
     pub fn rest(&self, layout: Layout, y: &mut [f64]) {
         let force = self.effective * Vector3::from(layout.centre(y, Race::Outer.ring()));
-        for (body, mode) in self.each(layout) {
+        for (i, mode) in self.modes.iter().enumerate() {
+            let body = layout.mode(i);
             y[layout.at(body, Dof::X)] = mode.seat.dot(&force) / mode.stiffness;
             y[layout.speed_at(body, Dof::X)] = 0.0;
         }
@@ -132,8 +125,8 @@ impl StructureModel {
     #[inline]
     pub fn at_sensor(&self, layout: Layout, shapes: &[Vector3<f64>], half: &[f64]) -> Vector3<f64> {
         let mut sum = Vector3::zeros();
-        for ((body, _), shape) in self.each(layout).zip(shapes) {
-            sum += shape * half[layout.at(body, Dof::X)];
+        for (shape, coordinate) in shapes.iter().zip(coordinates(layout, half)) {
+            sum += shape * *coordinate;
         }
         sum
     }
@@ -186,6 +179,13 @@ impl ModeModel {
             damping: 2.0 * mode.damping * omega * mass,
         }
     }
+}
+
+/// Coordinates of the modes among the places of all bodies, or their rates.
+#[inline]
+fn coordinates(layout: Layout, half: &[f64]) -> impl Iterator<Item = &f64> {
+    let modes = &Layout::each(half)[layout.modes()];
+    modes.iter().map(|mode| &mode[Dof::X])
 }
 
 /// Stiffness of springs in series with a compliance, (K⁻¹ + S)⁻¹, also where there is no spring along some axis.

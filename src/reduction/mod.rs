@@ -234,6 +234,12 @@ impl Reduction {
             let Some(course) = grounds.course(model, t, start, body, dof, reason) else {
                 continue;
             };
+            // What rests where the start has it stays there in all states that are made of the start.
+            let [place, speed] =
+                [layout.at(body, dof), layout.speed_at(body, dof)].map(|at| start[at]);
+            if !course.moves() && course.at(t) == (place, speed) {
+                continue;
+            }
             let prescribed = Prescribed { body, dof, course };
             if prescribed.course.moves() && is_felt(model, &prescribed, reason) {
                 self.felt.push(prescribed.clone());
@@ -346,7 +352,7 @@ impl Reduction {
     }
 
     /// The states of all bodies at a time, from those that are kept. `full` holds them from another time, or from
-    /// the start.
+    /// the start: what rests there is not written.
     #[inline]
     pub(crate) fn expand(&self, model: &Model, t: f64, y: &[f64], full: &mut [f64]) {
         let layout = model.layout();
@@ -367,7 +373,7 @@ impl Reduction {
         }
     }
 
-    /// Rates of all states from the kept states and their rates.
+    /// Rates of all states from the kept states and their rates. `full` holds them from another time, or zeros.
     pub(crate) fn expand_rates(
         &self,
         model: &Model,
@@ -399,12 +405,13 @@ impl Reduction {
 
     #[inline]
     fn spread(&self, layout: Layout, y: &[f64], full: &mut [f64]) {
-        let (q, v) = full.split_at_mut(layout.half());
-        for s in &self.stretches {
-            let speeds = &y[self.kept..];
-            for (i, at) in s.states().enumerate() {
-                let to = layout.at(s.first.after(i), s.dof);
-                (q[to], v[to]) = (y[at], speeds[at]);
+        let (places, speeds) = full.split_at_mut(layout.half());
+        for (half, from) in [(places, &y[..self.kept]), (speeds, &y[self.kept..])] {
+            let bodies = Layout::each_mut(half);
+            for s in &self.stretches {
+                for (body, number) in bodies[s.bodies()].iter_mut().zip(&from[s.states()]) {
+                    body[s.dof] = *number;
+                }
             }
         }
     }

@@ -55,8 +55,13 @@ impl Bounds {
     #[inline]
     pub fn left(&self, y: &[f64]) -> Option<(BodyId, String)> {
         let within = |i: usize| (y[i] - self.centre[i]).abs() <= self.reach[i];
-        // Numbers that are none are not within.
-        if (0..y.len()).all(within) {
+        // Numbers that are none are not within. All are looked at, several at a time.
+        let bounds = self.centre.iter().zip(&self.reach);
+        let outside = y
+            .iter()
+            .zip(bounds)
+            .map(|(y, (centre, reach))| u64::from(!((y - centre).abs() <= *reach)));
+        if outside.sum::<u64>() == 0 {
             return None;
         }
         let half = self.degrees.len();
