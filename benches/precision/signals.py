@@ -81,7 +81,7 @@ def case(kind: str, cut: str, against: str, effort: Effort) -> Case:
 def draw_chart(rows: list[dict[str, Any]], path: Path) -> None:
     """Draw what the tolerance buys beside what the nodes buy."""
     figure, (left, right) = draw.panels(
-        ["Steps: with the cap any tolerance will do", "Nodes: they decide, not the steps"]
+        ["Steps: with the cap any tolerance will do", "Nodes, at four settings of the steps"]
     )
     colours = {
         math.inf: draw.RED,
