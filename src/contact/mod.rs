@@ -38,7 +38,7 @@ pub(crate) use batch::{
 };
 #[doc(hidden)]
 pub use damage::SurfaceDefect;
-pub(crate) use damage::{Bed, ContactDirection, MOST_AT_ONCE, PittedContact, met_at_once};
+pub(crate) use damage::{ContactDirection, MOST_AT_ONCE, met_at_once};
 #[doc(hidden)]
 pub use frames::Motion;
 pub(crate) use frames::{TiltedRing, attitude_accelerations, attitude_rates, centrifugal};

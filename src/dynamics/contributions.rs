@@ -74,7 +74,7 @@ pub(crate) fn contributions_with_films(
     let at = Instant {
         t,
         state: &state,
-        rows: 0..model.rows.len(),
+        rows: model.rows.len(),
         times: 1.0,
         springs: &model.springs,
         rings: tilted.as_ref().map(<[_; 2]>::each_ref),

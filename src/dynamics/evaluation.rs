@@ -1,7 +1,5 @@
 //! Names of the code that an evaluation runs.
 
-use std::ops::Range;
-
 use super::Dynamics;
 use crate::contact::{Pair, ZoneSlices};
 use crate::forces::{self, Use};
@@ -33,29 +31,10 @@ impl Dynamics<'_> {
         contacts.into_iter().chain(oil).chain(forces).collect()
     }
 
-    /// The rows whose contacts have a part in the motion.
-    pub(crate) fn rows_in_motion(&self) -> Range<usize> {
-        if self.contacts.is_mirrored() {
-            0..self.model.rows.len()
-        } else {
-            self.contacts.rows()
-        }
-    }
-
-    /// Whether the contacts of a row have a part in the motion.
-    pub(crate) fn evaluates(&self, row: usize) -> bool {
-        self.rows_in_motion().contains(&row)
-    }
-
     /// How the contacts of a row with a race are evaluated where no defect is in reach.
     pub(crate) fn evaluation(&self, row: usize, race: Race) -> String {
-        if !self.contacts.rows().contains(&row) {
-            let instead = if self.contacts.is_mirrored() {
-                "image of row 0"
-            } else {
-                "left out by request"
-            };
-            return instead.to_owned();
+        if row >= self.contacts.rows() {
+            return "image of row 0".to_owned();
         }
         let pair = &self.model.rows[row].pairs[race];
         let law = pair.law.elastic.name();

@@ -1,6 +1,5 @@
 //! The integrated states of a reduced run: from their vector to all bodies, and from forces to their rates.
 
-use super::rolling::RollingRows;
 use crate::forces::{State, Table};
 use crate::model::{Dof, Race};
 use crate::reduction::Reduction;
@@ -11,12 +10,11 @@ pub(super) struct Kept {
     pub reduction: Reduction,
     /// Places of the directions of rings whose motion or speed is given, as far as they are among the states.
     pub driven: Vec<(usize, Race, Dof)>,
-    pub rolling: RollingRows,
 }
 
 impl Kept {
     /// Takes over a state vector.
-    pub fn read(&mut self, t: f64, y: &[f64], state: &mut State) {
+    pub fn read(&self, t: f64, y: &[f64], state: &mut State) {
         let (q, v) = y.split_at(y.len() / 2);
         for s in self.reduction.stretches() {
             let (to, from) = (s.bodies(), s.states());
@@ -28,7 +26,6 @@ impl Kept {
             *state.q.get_mut(motion.body, motion.dof) = place;
             *state.v.get_mut(motion.body, motion.dof) = speed;
         }
-        self.rolling.place(&self.reduction, t, state);
     }
 
     /// M⁻¹ F of what is kept; the acceleration of driven directions is left to the caller.
@@ -41,7 +38,5 @@ impl Kept {
                 *a = f * m;
             }
         }
-        self.rolling
-            .accelerate(&self.reduction, forces, mobility, accelerations);
     }
 }

@@ -113,15 +113,6 @@ fn paths() -> Vec<Path> {
             s.defects.insert("spall".to_owned(), spall());
         }),
         plane("one row for two", &two_rows(), |_| {}),
-        path("axial places that are kept", &thrust, |s| {
-            s.approximations.plane = true;
-        }),
-        path("balls that roll", &thrust, |s| {
-            s.approximations.rolling = true;
-        }),
-        path("balls that roll at their axial places", &thrust, |s| {
-            (s.approximations.rolling, s.approximations.plane) = (true, true);
-        }),
     ]
 }
 

@@ -9,7 +9,6 @@ mod kept;
 #[cfg(test)]
 mod lost;
 mod order;
-mod rolling;
 #[cfg(test)]
 mod spinning_tests;
 mod sums;
@@ -22,7 +21,7 @@ use crate::forces::cage::links::LinkForces;
 use crate::forces::cage::ring::{self as cage_ring, CageRings};
 use crate::forces::{self, Force, ForceSums, Instant, State, Table, Use};
 use crate::integrate::System;
-use crate::model::{BodyId, BodyKind, DOFS, Degree, Dof, Model, Race, Spring};
+use crate::model::{BodyId, BodyKind, DOFS, Degree, Model, Race, Spring};
 use crate::reduction::Reduction;
 
 pub(crate) use batch::{Batch, Guarantees, RingView, SideConstants, Touching, View};
@@ -32,7 +31,6 @@ pub use contributions::{contribution_names, contributions};
 use films::Films;
 use kept::Kept;
 use order::Order;
-use rolling::RollingRows;
 use tilted::SpatialWork;
 pub(crate) use tilted::turning_accelerations;
 
@@ -51,7 +49,7 @@ pub struct Dynamics<'m> {
     constant: Table,
     /// Supports of the directions that are integrated; the other directions never strain theirs.
     springs: Vec<Spring>,
-    /// Inverse of the mass where a direction is free, 0 where it is not or where the run keeps an axial place.
+    /// Inverse of the mass where a direction is free, 0 where it is not.
     mobility: Table,
     pool: Option<Pool>,
     /// Films that follow the rings' speed.
@@ -63,7 +61,7 @@ pub struct Dynamics<'m> {
 impl<'m> Dynamics<'m> {
     /// The right-hand side for evaluations on one thread, of states as [`Model::names`] orders them.
     pub fn new(model: &'m Model) -> Self {
-        Self::with(model, Order::Bodies, Guarantees::whole(model))
+        Self::with(model, Order::Bodies, Guarantees::default())
     }
 
     /// The right-hand side for the states that a reduction keeps. `start` is a state of all bodies.
@@ -72,7 +70,6 @@ impl<'m> Dynamics<'m> {
     /// If the length of `start` is not [`Model::dim`].
     pub fn reduced(model: &'m Model, reduction: Reduction, start: &[f64]) -> Self {
         let kind = Guarantees {
-            rows: reduction.rows.clone(),
             symmetric: reduction.plane,
             mirrored: reduction.mirrored,
         };
@@ -86,20 +83,11 @@ impl<'m> Dynamics<'m> {
                 (model.degree(race, dof) == Degree::Driven).then_some((at, race, dof))
             });
         let driven = driven.collect();
-        let rolling = RollingRows::new(&reduction);
-        let keeps_axial_places = reduction.axial_places.is_some();
-        let order = Order::Kept(Box::new(Kept {
-            reduction,
-            driven,
-            rolling,
-        }));
+        let order = Order::Kept(Box::new(Kept { reduction, driven }));
         let mut dynamics = Self::with(model, order, kind);
         // Only scenes that stay in the plane are reduced: what tilts or spins freely in them rests.
         dynamics.tilted = None;
         dynamics.constant = constant(model, false);
-        if keeps_axial_places {
-            dynamics.mobility.along_mut(Dof::Z).fill(0.0);
-        }
         let kept = dynamics.degrees();
         dynamics
             .springs
@@ -234,7 +222,7 @@ impl<'m> Dynamics<'m> {
 
     /// Takes over a state vector.
     pub(crate) fn read(&mut self, t: f64, y: &[f64]) {
-        match &mut self.order {
+        match &self.order {
             Order::Bodies => self.state.read(y),
             Order::Kept(kept) => kept.read(t, y, &mut self.state),
         }

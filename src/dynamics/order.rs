@@ -44,22 +44,14 @@ impl Dynamics<'_> {
         }
     }
 
-    /// The same for the rates `dy` of a state `y`.
+    /// The same for the rates of a state.
     ///
     /// # Panics
     /// If a length is wrong.
-    pub fn expand_rates(&self, t: f64, y: &[f64], dy: &[f64], full: &mut [f64]) {
+    pub fn expand_rates(&self, t: f64, dy: &[f64], full: &mut [f64]) {
         match &self.order {
             Order::Bodies => full.copy_from_slice(dy),
-            Order::Kept(kept) => kept.reduction.expand_rates(self.model, t, y, dy, full),
-        }
-    }
-
-    /// States that are distances of balls from the shaft, by their places.
-    pub(crate) fn radii(&self) -> Vec<(usize, BodyId)> {
-        match &self.order {
-            Order::Bodies => Vec::new(),
-            Order::Kept(kept) => kept.reduction.radii().collect(),
+            Order::Kept(kept) => kept.reduction.expand_rates(self.model, t, dy, full),
         }
     }
 

@@ -6,7 +6,7 @@ use super::cost::{self, Cost};
 use crate::model::Model;
 use crate::reduction::Reduction;
 use crate::run::Run;
-use crate::scene::{Load, Scene, Slices, Surface};
+use crate::scene::{Load, Scene, Slices};
 use crate::statics::compile;
 use crate::statics::start::{Start, start};
 
@@ -37,34 +37,7 @@ const OF_OIL: [&str; 3] = [WITHOUT_OIL, WITHOUT_ROLLING, WITHOUT_FILM_DAMPING];
 type Change = fn(&Scene) -> Option<Scene>;
 
 /// Changes by name, and what they do to the answer.
-const CHANGES: [(&str, &str, Change); 13] = [
-    (
-        "with approximations.rolling",
-        "of faulted races: rms to 20 %, rate of impacts to 0.3 %",
-        |scene| {
-            let mut changed = scene.clone();
-            changed.approximations.rolling = true;
-            (has_impacts(scene) && changed != *scene).then_some(changed)
-        },
-    ),
-    (
-        "with approximations.rolling and plane",
-        "of faulted races: rms to 22 %, peaks to 38 %, rate of impacts to 0.3 %",
-        |scene| {
-            let mut changed = scene.clone();
-            (changed.approximations.rolling, changed.approximations.plane) = (true, true);
-            (has_impacts(scene) && has_thrust(scene) && changed != *scene).then_some(changed)
-        },
-    ),
-    (
-        "with approximations.one_row",
-        "the row left out carries less than 2 % of the load",
-        |scene| {
-            let mut changed = scene.clone();
-            changed.approximations.one_row = true;
-            (changed != *scene).then_some(changed)
-        },
-    ),
+const CHANGES: [(&str, &str, Change); 10] = [
     ("without friction", "another answer", |scene| {
         let mut changed = scene.clone();
         changed.remove_friction();
@@ -143,7 +116,7 @@ const CHANGES: [(&str, &str, Change); 13] = [
 
 /// The variants that help or are of the oil, the cheapest first. Each is started and timed as the scene itself was.
 pub(super) fn of(model: &Model, y0: &[f64], cost: &Cost) -> Vec<Variant> {
-    let mut variants: Vec<Variant> = offers(model, y0)
+    let mut variants: Vec<Variant> = offers(model)
         .into_iter()
         .filter_map(|(change, note, changed)| {
             let y0 = &changed.layout().carry(y0, model.layout());
@@ -168,25 +141,17 @@ fn seconds(model: &Model) -> Option<f64> {
     Some(cost::of(model, &y0).ok()?.seconds)
 }
 
-/// Changes that apply to a scene and hold at its start, with their notes and models. What the scene does not allow, or
-/// what meets an obstacle that was not there, is no offer.
-fn offers(model: &Model, y0: &[f64]) -> Vec<(&'static str, &'static str, Model)> {
-    let now = obstacles(Reduction::of(model, y0).as_ref());
+/// Changes that apply to a scene, with their notes and models. What the scene does not allow is no offer.
+fn offers(model: &Model) -> Vec<(&'static str, &'static str, Model)> {
     CHANGES
         .into_iter()
         .filter_map(|(change, note, apply)| {
             let changed = compile(&apply(model.scene())?)
                 .ok()?
                 .recorded_to(Run::default().band());
-            let y0 = changed.layout().carry(y0, model.layout());
-            let holds = obstacles(Reduction::of(&changed, &y0).as_ref()) <= now;
-            holds.then_some((change, note, changed))
+            Some((change, note, changed))
         })
         .collect()
-}
-
-fn obstacles(reduction: Option<&Reduction>) -> usize {
-    reduction.map_or(0, |reduction| reduction.obstacles().len())
 }
 
 fn is_thrust(load: &Load) -> bool {
@@ -197,12 +162,6 @@ fn has_thrust(scene: &Scene) -> bool {
     scene.loads.values().any(is_thrust)
 }
 
-/// Impacts outshine what approximations get wrong; a healthy race has nothing else to show.
-fn has_impacts(scene: &Scene) -> bool {
-    let mut defects = scene.defects.values();
-    defects.any(|defect| defect.on != Surface::Ball)
-}
-
 /// The truth is what the scenes have; no clock has a part in it.
 #[cfg(test)]
 mod tests {
@@ -211,32 +170,8 @@ mod tests {
 
     fn offered(scene: &Scene) -> Vec<&'static str> {
         let model = compile(scene).unwrap();
-        let y0 = start(&model, &Start::Equilibrium).unwrap();
-        let offers = offers(&model, &y0);
+        let offers = offers(&model);
         offers.into_iter().map(|(change, _, _)| change).collect()
-    }
-
-    #[test]
-    fn approximations_are_offered_where_they_hold() {
-        const ROLLING: &str = "with approximations.rolling";
-        const FLAT: &str = "with approximations.rolling and plane";
-        const ONE_ROW: &str = "with approximations.one_row";
-        let of = |scene: &Scene| {
-            let mut found = offered(scene);
-            found.retain(|change| change.starts_with("with approximations."));
-            found
-        };
-        let faulted = presets::wheel_bearing(3000.0);
-        assert_eq!(of(&faulted), [ROLLING, FLAT]);
-        // No thrust: nothing for a plane to keep.
-        assert_eq!(of(&presets::wheel_bearing(0.0)), [ROLLING]);
-        let mut healthy = faulted.clone();
-        healthy.defects.clear();
-        assert!(of(&healthy).is_empty());
-        // One row carries it all.
-        let mut lifted = presets::wheel_bearing(20e3);
-        lifted.loads.get_mut("radial").unwrap().force = 500.0.into();
-        assert_eq!(of(&lifted), [ROLLING, FLAT, ONE_ROW]);
     }
 
     /// A probe of the oil goes with it; a part that is left out already is not offered.

@@ -25,7 +25,7 @@ impl Force for Drag {
     }
 
     fn add(&self, model: &Model, at: &Instant<'_>, sums: &mut ForceSums<'_>) {
-        let rows = &model.rows[at.rows.clone()];
+        let rows = &model.rows[..at.rows];
         for row in rows.iter().filter(|row| row.drag > 0.0) {
             for ball in row.balls() {
                 let body = BodyId::ball(ball);

@@ -1,7 +1,5 @@
 //! The instant at which forces are evaluated, and the sums that they add to.
 
-use std::ops::Range;
-
 use nalgebra::Vector3;
 
 use super::{State, Table};
@@ -14,8 +12,8 @@ pub(crate) struct Instant<'a> {
     /// \[s\]
     pub t: f64,
     pub state: &'a State,
-    /// Rows whose balls move.
-    pub rows: Range<usize>,
+    /// Number of the rows whose balls move, the first ones.
+    pub rows: usize,
     /// Supports of directions that move.
     pub springs: &'a [Spring],
     /// How many rows each of them stands for: two, where the second row is an image of the first.

@@ -1,6 +1,6 @@
 //! The bearing at rest, as a model needs it: the compiler of scenes asks, statics answer.
 
-use super::{Model, Race, ball_defect, race_defect};
+use super::{Model, Race};
 use crate::base::error::Result;
 use crate::contact::SurfaceDefect;
 use crate::contact::hertz::Hertz;
@@ -65,10 +65,10 @@ impl HeaviestContact {
         let row = &self.model.rows[defect.row];
         let geometry = &self.model.scene().rows[defect.row];
         if defect.on == Surface::Ball {
-            ball_defect(defect, geometry.ball_diameter / 2.0, &row.hertz)
+            SurfaceDefect::of_ball(defect, geometry.ball_diameter / 2.0, &row.hertz)
         } else {
             let (pair, hertz) = (&row.pairs[self.race], &row.hertz[self.race]);
-            race_defect(defect, geometry, pair, hertz)
+            SurfaceDefect::of_race(defect, geometry, hertz, |z, length| pair.radii(z, length))
         }
     }
 }

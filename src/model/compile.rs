@@ -3,7 +3,6 @@
 use std::f64::consts::PI;
 
 use super::body::{Body, Degree, ball_mass, conformity, groove_radius, ring_mass};
-use super::defects::{ball_defect, race_defect};
 use super::loads::{loads, moments};
 use super::race::{RaceGeometry, geometry};
 use super::ring::layout_of;
@@ -18,7 +17,7 @@ use crate::contact::{
     BallSide, Damping, Elastic, Law, MOST_AT_ONCE, Pair, Rules, Shape, SurfaceDefect, Torus,
     Traction, V2, Waves, ZoneSlices, met_at_once,
 };
-use crate::scene::{self, Approximations, Defect, Mount, Row, Scene, Surface};
+use crate::scene::{self, Defect, Mount, Row, Scene, Surface};
 use crate::simd::InstructionSet;
 use crate::tilt::Inertia;
 
@@ -26,7 +25,6 @@ use crate::tilt::Inertia;
 pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
     scene.validate()?;
     demand::check(scene)?;
-    let scene = &Approximations::simplified(scene);
     let (outer, on_outer) = ring(scene, &scene.outer_ring, Race::Outer)?;
     let (inner, on_inner) = ring(scene, &scene.inner_ring, Race::Inner)?;
     let (mut bodies, rings) = (vec![outer, inner], [on_outer, on_inner]);
@@ -290,7 +288,7 @@ fn pair(scene: &Scene, index: usize, row: &Row, race: Race) -> Result<(Pair, Her
     let of_race = |defect: &&Defect| defect.on == surface && defect.row == index;
     let defects = scene.defects.values().filter(of_race);
     let defects: Vec<SurfaceDefect> = defects
-        .map(|d| race_defect(d, row, &pair, &hertz))
+        .map(|d| SurfaceDefect::of_race(d, row, &hertz, |z, length| pair.radii(z, length)))
         .collect();
     pair.change(|flank| flank.defects.clone_from(&defects));
     Ok((pair, hertz))
@@ -349,7 +347,7 @@ fn ball_defects(
         .defects
         .values()
         .filter(|d| d.on == Surface::Ball && d.row == row && d.ball == Some(ball))
-        .map(|defect| ball_defect(defect, radius, hertz))
+        .map(|defect| SurfaceDefect::of_ball(defect, radius, hertz))
         .collect()
 }
 

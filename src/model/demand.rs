@@ -5,7 +5,7 @@ use crate::base::memory;
 use crate::model::GivenMotions;
 use crate::scene::{Defect, Drive, Probe, Profile, Row, Scene, TimeFunction, Waviness, Width};
 
-/// Copies of a scene's lists that are held at once: the document, the scene as placed, simplified, frozen to settle and
+/// Copies of a scene's lists that are held at once: the document, the scene as placed, frozen to settle and
 /// handed over. Measured with tables of 10⁶ points: 9.
 const COPIES: f64 = 12.0;
 /// A load, defect or probe with its name \[bytes\].

@@ -7,7 +7,6 @@ mod at_rest;
 mod body;
 mod cage;
 mod compile;
-mod defects;
 mod demand;
 mod dof;
 mod given;
@@ -37,7 +36,6 @@ pub(crate) use at_rest::{AtRest, HeaviestContact, RaceLoads};
 pub use body::{Body, Degree};
 pub(crate) use cage::{CageModel, Carried, CentringSpring, Land};
 pub(crate) use compile::compile_placed;
-pub(crate) use defects::{ball_defect, race_defect};
 pub use dof::{DOFS, Dof};
 pub(crate) use given::GivenMotions;
 pub(crate) use layout::RINGS;
@@ -182,8 +180,7 @@ pub(crate) struct UnbalanceModel {
 }
 
 impl Model {
-    /// The scene it was compiled from, every defect at its number, without the forces that its approximations give
-    /// up.
+    /// The scene it was compiled from, every defect at its number.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }

@@ -1,12 +1,10 @@
 //! Reduction of a run: which degrees of freedom it integrates, and why not the others.
 //!
-//! Left out by default is only what does not change the motion: directions that cannot accelerate (held, driven, or without any
-//! moment), and those that a mirror symmetry of scene *and* start keeps at rest or makes a copy of others. Approximations are made
-//! on request ([`crate::scene::Approximations`]).
+//! Left out is only what does not change the motion: directions that cannot accelerate (held, driven, or without any
+//! moment), and those that a mirror symmetry of scene *and* start keeps at rest or makes a copy of others.
 
 mod course;
 mod grounds;
-mod request;
 mod space;
 mod symmetry;
 
@@ -14,7 +12,7 @@ use std::ops::Range;
 
 use crate::model::{BodyId, BodyKind, DOFS, Dof, Layout, Model};
 
-use course::{Orbit, Prescribed};
+use course::Prescribed;
 use grounds::{Grounds, Reason, is_felt};
 
 /// The degrees of freedom that a run integrates, and what becomes of the others.
@@ -28,14 +26,8 @@ pub struct Reduction {
     prescribed: Vec<Prescribed>,
     /// Prescribed motions that some force depends on.
     felt: Vec<Prescribed>,
-    /// Rows that turn as one.
-    orbits: Vec<Orbit>,
-    /// Rows whose contacts are evaluated.
-    pub(crate) rows: Range<usize>,
     /// Condition that all bodies stay in the planes of their rows.
     pub(crate) plane: bool,
-    /// Axial places of rings and rows that are kept.
-    pub(crate) axial_places: Option<AxialPlaces>,
     /// The second row is the first one's mirror image.
     pub(crate) mirrored: bool,
     omissions: Vec<Omission>,
@@ -62,27 +54,6 @@ pub struct Obstacle {
     pub what: String,
     /// Reason that stands against it.
     pub reason: String,
-}
-
-/// Axial places that rings and rows keep.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct AxialPlaces {
-    /// Places of outer and inner ring \[m\].
-    pub rings: [f64; 2],
-    /// Places of the balls of each row \[m\].
-    pub rows: Vec<f64>,
-}
-
-impl AxialPlaces {
-    /// The one that a body keeps \[m\].
-    pub fn of(&self, model: &Model, body: BodyId) -> f64 {
-        match model.layout().kind(body) {
-            BodyKind::Ring(race) => self.rings[race],
-            BodyKind::Cage(row) => self.rows[row],
-            BodyKind::Mode(_) => 0.0,
-            BodyKind::Ball(ball) => self.rows[model.balls[ball].row],
-        }
-    }
 }
 
 /// Neighbouring bodies that keep a direction.
@@ -115,10 +86,7 @@ impl Reduction {
             kept: 0,
             prescribed: Vec::new(),
             felt: Vec::new(),
-            orbits: Vec::new(),
-            rows: 0..model.rows.len(),
             plane: false,
-            axial_places: None,
             mirrored: false,
             omissions: Vec::new(),
             obstacles: Vec::new(),
@@ -140,65 +108,40 @@ impl Reduction {
     pub(crate) fn since(model: &Model, t: f64, start: &[f64]) -> Option<Self> {
         assert_eq!(start.len(), model.dim(), "length of the state");
         let solver = &model.scene.solver;
-        if !model.is_spatial() {
-            return Some(Self::leaving_out(model, t, start, solver.reduce));
+        match (model.is_spatial(), solver.reduce) {
+            (false, true) => Some(Self::leaving_out(model, t, start)),
+            (false, false) => Some(Self::none(model)),
+            (true, true) => Self::in_space(model, t, start).ok(),
+            (true, false) => None,
         }
-        if !solver.reduce {
-            return None;
-        }
-        Self::in_space(model, t, start).ok()
     }
 
-    /// Leaves out what is given up by request and, if `exact` reductions are wanted, what does not change the motion
-    /// from a state of all bodies at a time.
-    fn leaving_out(model: &Model, t: f64, start: &[f64], exact: bool) -> Self {
+    /// Leaves out what does not change the motion from a state of all bodies at a time.
+    fn leaving_out(model: &Model, t: f64, start: &[f64]) -> Self {
         let mut reduction = Self::none(model);
         let mut obstacle = |what: &str, reason: String| {
             let what = what.to_owned();
             reduction.obstacles.push(Obstacle { what, reason });
         };
-        let wanted = model.scene.approximations;
-        let mut grounds = Grounds {
-            exact,
-            ..Grounds::default()
-        };
-        if exact {
-            grounds.plane = symmetry::about_rows(model, start)
-                .map_err(|reason| obstacle("motion in the plane", reason))
-                .is_ok();
-            grounds.mirrored = symmetry::of_rows(model, start).is_some_and(|found| {
-                found
-                    .map_err(|reason| obstacle("one row for two", reason))
-                    .is_ok()
-            });
-            let rub: Vec<usize> = (0..model.rows.len())
-                .filter(|row| model.rows[*row].turns_balls())
-                .collect();
-            if rub.len() == model.rows.len() {
-                obstacle("balls without spin", "friction turns them".to_owned());
-            } else if let Some(row) = rub.first() {
-                let reason = format!("friction turns those of row {row}");
-                obstacle("balls without spin", reason);
-            }
+        let plane = symmetry::about_rows(model, start)
+            .map_err(|reason| obstacle("motion in the plane", reason))
+            .is_ok();
+        let mirrored = symmetry::of_rows(model, start).is_some_and(|found| {
+            found
+                .map_err(|reason| obstacle("one row for two", reason))
+                .is_ok()
+        });
+        let rub: Vec<usize> = (0..model.rows.len())
+            .filter(|row| model.rows[*row].turns_balls())
+            .collect();
+        if rub.len() == model.rows.len() {
+            obstacle("balls without spin", "friction turns them".to_owned());
+        } else if let Some(row) = rub.first() {
+            let reason = format!("friction turns those of row {row}");
+            obstacle("balls without spin", reason);
         }
-        if wanted.plane {
-            grounds.axial_places = request::axial_places(model, start)
-                .map_err(|reason| obstacle("axial places that are kept", reason))
-                .ok();
-        }
-        if wanted.one_row && !grounds.mirrored {
-            grounds.idle = request::idle_row(model, start)
-                .map_err(|reason| obstacle("without the unloaded row", reason))
-                .ok();
-        }
-        (reduction.plane, reduction.mirrored) = (grounds.plane, grounds.mirrored);
-        reduction.rows = match grounds.idle {
-            Some(row) => 1 - row..2 - row,
-            None if grounds.mirrored => 0..1,
-            None => 0..model.rows.len(),
-        };
-        reduction.leave_out(model, t, start, &grounds);
-        reduction.axial_places = grounds.axial_places;
+        (reduction.plane, reduction.mirrored) = (plane, mirrored);
+        reduction.leave_out(model, t, start, &Grounds { plane, mirrored });
         reduction
     }
 
@@ -231,36 +174,22 @@ impl Reduction {
             let Some(reason) = reasons[body][dof] else {
                 continue;
             };
-            let Some(course) = grounds.course(model, t, start, body, dof, reason) else {
+            let of = (body, dof);
+            let Some(prescribed) = Prescribed::of(model, t, start, of, reason) else {
                 continue;
             };
             // What rests where the start has it stays there in all states that are made of the start.
             let [place, speed] =
                 [layout.at(body, dof), layout.speed_at(body, dof)].map(|at| start[at]);
+            let course = &prescribed.course;
             if !course.moves() && course.at(t) == (place, speed) {
                 continue;
             }
-            let prescribed = Prescribed { body, dof, course };
-            if prescribed.course.moves() && is_felt(model, &prescribed, reason) {
+            if course.moves() && is_felt(model, reason) {
                 self.felt.push(prescribed.clone());
             }
             self.prescribed.push(prescribed);
         }
-        for row in 0..model.rows.len() {
-            let idle = grounds.idle == Some(row);
-            let copy = grounds.mirrored && row == 1;
-            if idle || model.scene.approximations.rolling && !copy {
-                let at = self.place(model.rows[row].first_body(), Dof::X);
-                self.orbits.push(Orbit::of(model, row, t, start, at));
-            }
-        }
-    }
-
-    /// Place of a degree of freedom among the states, if it is kept.
-    pub(crate) fn place(&self, body: BodyId, dof: Dof) -> Option<usize> {
-        let holds = |s: &&Stretch| s.dof == dof && s.bodies().contains(&body.index());
-        let stretch = self.stretches.iter().find(holds)?;
-        Some(stretch.at + body.index() - stretch.first.index())
     }
 
     /// Lists what is kept, direction by direction.
@@ -309,22 +238,6 @@ impl Reduction {
         &self.felt
     }
 
-    /// Rows that turn as one and whose radii are states, with the place of their first one.
-    pub(crate) fn orbits(&self) -> impl Iterator<Item = (&Orbit, usize)> {
-        self.orbits
-            .iter()
-            .filter_map(|orbit| Some((orbit, orbit.at?)))
-    }
-
-    /// States that are distances of balls from the shaft, by their places.
-    pub(crate) fn radii(&self) -> impl Iterator<Item = (usize, BodyId)> {
-        let of = |(orbit, at): (&Orbit, usize)| {
-            let first = orbit.first;
-            (0..orbit.starts.len()).map(move |k| (at + k, first.after(k)))
-        };
-        self.orbits().flat_map(of)
-    }
-
     /// The kept degrees of freedom in their order.
     pub(crate) fn degrees(&self) -> impl Iterator<Item = (BodyId, Dof)> + '_ {
         self.stretches
@@ -344,11 +257,7 @@ impl Reduction {
                 .map(|(body, dof)| bodies[body.index()][dof])
                 .collect()
         };
-        let mut kept = [of(q), of(v)].concat();
-        for orbit in &self.orbits {
-            orbit.compress(full, &mut kept);
-        }
-        kept
+        [of(q), of(v)].concat()
     }
 
     /// The states of all bodies at a time, from those that are kept. `full` holds them from another time, or from
@@ -362,9 +271,6 @@ impl Reduction {
             full[layout.at(motion.body, motion.dof)] = place;
             full[layout.speed_at(motion.body, motion.dof)] = speed;
         }
-        for orbit in &self.orbits {
-            orbit.place(t, y, full);
-        }
         if let (true, [first, second]) = (self.mirrored, &model.scene.rows[..]) {
             let axial = f64::midpoint(first.axial_position, second.axial_position);
             let (places, speeds) = full.split_at_mut(layout.half());
@@ -373,23 +279,13 @@ impl Reduction {
         }
     }
 
-    /// Rates of all states from the kept states and their rates. `full` holds them from another time, or zeros.
-    pub(crate) fn expand_rates(
-        &self,
-        model: &Model,
-        t: f64,
-        y: &[f64],
-        rates: &[f64],
-        full: &mut [f64],
-    ) {
+    /// Rates of all states from those of the kept states. `full` holds them from another time, or zeros.
+    pub(crate) fn expand_rates(&self, model: &Model, t: f64, rates: &[f64], full: &mut [f64]) {
         let layout = model.layout();
         self.spread(layout, rates, full);
         for motion in &self.prescribed {
             full[layout.at(motion.body, motion.dof)] = motion.course.at(t).1;
             full[layout.speed_at(motion.body, motion.dof)] = motion.course.rate(t);
-        }
-        for orbit in &self.orbits {
-            orbit.rates(t, y, rates, full);
         }
         let (speeds, accelerations) = full.split_at_mut(layout.half());
         self.mirror(model, speeds);
@@ -415,15 +311,6 @@ impl Reduction {
             }
         }
     }
-}
-
-/// Axial places that rings and rows keep by request, from a state of all bodies in equilibrium; none where that is not asked
-/// for or cannot be.
-pub(crate) fn axial_places(model: &Model, start: &[f64]) -> Option<AxialPlaces> {
-    let axial_places = request::axial_places(model, start);
-    axial_places
-        .ok()
-        .filter(|_| model.scene.approximations.plane)
 }
 
 /// Makes the second row the image of the first, whose axial numbers z become `sum` − z; of one half of a state.

@@ -12,7 +12,7 @@ impl Reduction {
     /// # Errors
     /// What stands against it.
     pub(crate) fn in_space(model: &Model, t: f64, start: &[f64]) -> Result<Self, Vec<Obstacle>> {
-        let mut found = Self::leaving_out(model, t, start, true);
+        let mut found = Self::leaving_out(model, t, start);
         // Balls of two rows that are images of each other may spin differently.
         let is_flat = found.plane || found.mirrored && !model.balls_turn();
         let against = against(model, start, found.mirrored);

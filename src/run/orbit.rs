@@ -6,14 +6,10 @@
 
 use crate::model::{BodyId, Model, RowModel};
 
-/// The report on a scene whose balls nothing drives; nothing where friction does, or where the orbit is given.
+/// The report on a scene whose balls nothing drives; nothing where friction does.
 pub(crate) fn note(model: &Model) -> Option<&'static str> {
     let scene = model.scene();
-    let is_driven = loose_balls(model).next().is_none();
-    let is_given = scene.approximations.rolling;
-    if is_driven || is_given {
-        return None;
-    }
+    loose_balls(model).next()?;
     Some(if scene.cage.is_some() {
         "nothing drives the balls' orbit: without friction it decays by the contacts' damping"
     } else {

@@ -87,7 +87,7 @@ fn difference(scene: &Scene, instructions: InstructionSet) -> crate::Result<f64>
     let own = dynamics.compress(&y);
     let (mut rates, mut found) = (own.clone(), y.clone());
     dynamics.rhs(0.0, &own, &mut rates);
-    dynamics.expand_rates(0.0, &own, &rates, &mut found);
+    dynamics.expand_rates(0.0, &rates, &mut found);
     let wanted = one_by_one(&model, &y);
     let apart = |(found, wanted): (&f64, &f64)| (found - wanted).abs();
     let accelerations = &found[y.len() / 2..];

@@ -24,14 +24,14 @@ pub(super) fn empty<T>(parts: &BTreeMap<String, T>) -> bool {
 
 /// Acts while nothing is left out, such as to write a document.
 pub(super) fn written_out<T>(act: impl FnOnce() -> T) -> T {
-    /// Ends it, also where the act panics.
-    struct End;
-    impl Drop for End {
+    /// Leaves out again at its end, also where the act panics.
+    struct LeaveOut;
+    impl Drop for LeaveOut {
         fn drop(&mut self) {
             WRITTEN_OUT.set(false);
         }
     }
-    let _end = End;
+    let _end = LeaveOut;
     WRITTEN_OUT.set(true);
     act()
 }

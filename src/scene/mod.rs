@@ -18,7 +18,6 @@
 
 mod absent;
 mod antiderivative;
-mod approximations;
 mod bearing;
 mod cage;
 #[cfg(feature = "catalogue")]
@@ -43,6 +42,7 @@ pub mod presets;
 mod probe;
 mod ranges;
 mod recorded;
+mod removed;
 mod ring;
 mod ring_force;
 mod solver;
@@ -66,7 +66,6 @@ use crate::base::memory;
 use numbers::BoundedNumber;
 
 pub(crate) use antiderivative::Antiderivative;
-pub use approximations::Approximations;
 pub use bearing::{GothicArch, RaceProfile, Row, Waviness};
 pub use cage::{Cage, CageGuidance, CageLinks, CageRing};
 pub use contact::{Contact, Friction, NormalLaw, Slices};
@@ -172,9 +171,6 @@ pub struct Scene {
     /// Probes by name; none: those of [`Scene::recorded`].
     #[serde(default)]
     pub probes: BTreeMap<String, Probe>,
-    /// Approximations that make runs faster; none by default.
-    #[serde(default)]
-    pub approximations: Approximations,
     /// Options of the integrator.
     #[serde(default = "Solver::unsaid")]
     pub solver: Solver,
@@ -234,7 +230,6 @@ impl Scene {
             ring_forces: RingForces::default(),
             defects: BTreeMap::new(),
             probes: BTreeMap::new(),
-            approximations: Approximations::default(),
             solver: Solver::default(),
         }
     }
@@ -339,7 +334,9 @@ impl Scene {
         check_length(text, TOML)?;
         let document = toml::from_str(text)
             .map_err(|e| Error::scene("scene", "not TOML", e.to_string().trim_end()))?;
-        Self::read(&document)
+        let scene = Self::read(document)?;
+        scene.validate()?;
+        Ok(scene)
     }
 
     /// Reads a scene from JSON and checks it.
@@ -358,7 +355,7 @@ impl Scene {
         check_length(text, JSON)?;
         let document = serde_json::from_str(text)
             .map_err(|e| Error::scene("scene", "not JSON", e.to_string()))?;
-        interpret(&document, "scene")
+        Self::read(document)
     }
 
     /// The scene as TOML.
@@ -395,14 +392,14 @@ impl Scene {
         for (path, value) in changes {
             path::set(&mut document, path, value.clone())?;
         }
-        let mut scene = Self::read(&document)?;
+        let mut scene = Self::read(document)?;
+        scene.validate()?;
         scene.ring_forces.clone_from(&self.ring_forces);
         Ok(scene)
     }
 
-    fn read(document: &Value) -> Result<Self> {
-        let scene: Self = interpret(document, "scene")?;
-        scene.validate()?;
-        Ok(scene)
+    fn read(mut document: Value) -> Result<Self> {
+        removed::take_approximations(&mut document)?;
+        interpret(&document, "scene")
     }
 }

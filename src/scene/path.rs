@@ -43,8 +43,9 @@ pub(super) fn set(document: &mut Value, path: &str, value: Value) -> Result<()> 
                 if !map.contains_key(key) {
                     let known: Vec<&str> = map.keys().map(String::as_str).collect();
                     let new = a_new_one(path, key).unwrap_or_default();
-                    let renamed = renamed(path).unwrap_or_default();
-                    let allowed = expected::no_such_field(key, &known) + renamed + &new;
+                    let former = what_became(path).map(|of| format!("; {of}"));
+                    let allowed =
+                        expected::no_such_field(key, &known) + &former.unwrap_or_default() + &new;
                     return Err(Error::scene(path, key, allowed));
                 }
                 &mut map[key]
@@ -142,10 +143,18 @@ fn steps(path: &str) -> Result<Vec<Step<'_>>> {
     Ok(steps)
 }
 
-/// Present name of what versions up to 0.3 called otherwise.
-fn renamed(path: &str) -> Option<&'static str> {
-    path.starts_with("defects.defect.")
-        .then_some("; a defect given alone is named by its shape, such as defects.spall")
+/// Words for what became of approximations.
+pub(super) const NO_APPROXIMATIONS: &str =
+    "approximations were removed with 0.4, since the full model is as fast";
+
+/// What became of what versions up to 0.3 had.
+fn what_became(path: &str) -> Option<&'static str> {
+    if path.starts_with("defects.defect.") {
+        Some("a defect given alone is named by its shape, such as defects.spall")
+    } else {
+        let is_removed = path.starts_with("approximations");
+        is_removed.then_some(NO_APPROXIMATIONS)
+    }
 }
 
 /// How to add an entry, where a path names only a field of one that is not there.

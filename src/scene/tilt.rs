@@ -1,8 +1,7 @@
-//! Rings that tilt: which may, their components of motion, and the approximations that they exclude.
+//! Rings that tilt: which may, and their components of motion.
 
 use super::ring::{Mount, Ring, Support};
-use super::{Approximations, Component, Scene};
-use crate::base::error::{Error, Result};
+use super::{Component, Scene};
 
 impl Support {
     /// The mounts of both tilts, which are fixed where they are absent.
@@ -43,30 +42,5 @@ impl Scene {
     /// Whether a ring may tilt. Where none does, rings have four directions and tilts do not occur.
     pub(crate) fn tilts(&self) -> bool {
         self.outer_ring.tilts() || self.inner_ring.tilts()
-    }
-
-    /// Refuses approximations where rings tilt or balls spin freely.
-    pub(super) fn check_tilted(&self) -> Result<()> {
-        let Approximations {
-            rolling,
-            plane,
-            one_row,
-        } = self.approximations;
-        let asked = [("rolling", rolling), ("plane", plane), ("one_row", one_row)];
-        let Some((name, _)) = asked.into_iter().find(|(_, asked)| *asked) else {
-            return Ok(());
-        };
-        let allowed = match (self.tilts(), self.balls_turn()) {
-            (true, _) => "false where a ring may tilt: approximations assume parallel rings",
-            (_, true) => {
-                "false where balls spin freely: approximations assume balls that spin about the bearing's axis"
-            }
-            _ => return Ok(()),
-        };
-        Err(Error::scene(
-            format!("approximations.{name}"),
-            true,
-            allowed,
-        ))
     }
 }

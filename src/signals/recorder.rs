@@ -127,7 +127,7 @@ impl<'s> Recorder<'s> {
         (self.y, self.dy) = (start.to_vec(), vec![0.0; start.len()]);
         let filtered = self.grid.as_ref().map(|_| self.sampling.fs);
         self.residual = AccelerationResidual::new(dynamics, filtered);
-        self.watch.prepare(dynamics, start);
+        self.watch.prepare(start);
         self.orbits.prepare(start);
         self.open(0.0);
         Ok(())
@@ -228,7 +228,7 @@ impl<'s> Recorder<'s> {
         self.own = (zeros.clone(), zeros);
         (self.y, self.dy) = (start.to_vec(), vec![0.0; start.len()]);
         self.residual.change(dynamics);
-        self.watch.change(dynamics, start);
+        self.watch.change(dynamics.model(), start);
     }
 
     /// Completes the last samples where the run has ended before the grid.
@@ -284,7 +284,7 @@ impl<'s> Recorder<'s> {
             dynamics.rhs(t, y, dy);
         }
         if self.needs_rhs {
-            dynamics.expand_rates(t, y, dy, &mut self.dy);
+            dynamics.expand_rates(t, dy, &mut self.dy);
         }
         self.held.t.push(t);
         let accelerations = &self.dy[self.dy.len() / 2..];

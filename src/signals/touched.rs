@@ -17,7 +17,7 @@ use crate::base::nulls;
 use crate::contact::{ContactDirection, DefectContact, Pair, SurfaceDefect, ZoneSlices};
 use crate::dynamics::Dynamics;
 use crate::integrate::DenseStep;
-use crate::model::{Model, Placed, Race, ball_defect, race_defect};
+use crate::model::{Model, Placed, Race};
 use crate::scene::{Defect, Doubt, Scene, Surface};
 
 /// Record of a defect: its place, and what met it.
@@ -134,8 +134,6 @@ struct Watched {
     on: Surface,
     /// Origin from which its axial place is measured, in the frame of its body \[m\].
     origin: f64,
-    /// Whether the defect's contacts are evaluated in the run.
-    felt: bool,
     /// Outer and inner race, to be looked at with few slices; they have all defects of the row, which share them.
     pairs: Arc<[Pair; 2]>,
     contacts: Vec<WatchedContact>,
@@ -210,18 +208,14 @@ impl DefectWatch {
     }
 
     /// Prepares for a run from a state of all bodies.
-    pub fn prepare(&mut self, dynamics: &Dynamics<'_>, start: &[f64]) {
+    pub fn prepare(&mut self, start: &[f64]) {
         self.y = start.to_vec();
-        for defect in &mut self.defects {
-            let row = dynamics.model().balls[defect.contacts[0].ball].row;
-            defect.felt = dynamics.evaluates(row);
-        }
     }
 
     /// Goes on with another model; defects of the same names keep their counts.
-    pub fn change(&mut self, dynamics: &Dynamics<'_>, start: &[f64]) {
-        let before = std::mem::replace(self, Self::new(dynamics.model()));
-        self.prepare(dynamics, start);
+    pub fn change(&mut self, model: &Model, start: &[f64]) {
+        let before = std::mem::replace(self, Self::new(model));
+        self.prepare(start);
         for of in before.defects {
             let mut named = self.defects.iter_mut();
             if let Some(same) = named.find(|other| other.name == of.name) {
@@ -274,7 +268,9 @@ pub(crate) fn compiled(model: &Model, defect: &Defect) -> (SurfaceDefect, f64) {
         model.typical_widths(defect.row),
     );
     let on_race = |race: Race| {
-        let mut shape = race_defect(defect, row, &pairs[race], &hertz[race]);
+        let mut shape = SurfaceDefect::of_race(defect, row, &hertz[race], |z, length| {
+            pairs[race].radii(z, length)
+        });
         shape.widen(widths[race]);
         (shape, row.axial_position)
     };
@@ -283,7 +279,7 @@ pub(crate) fn compiled(model: &Model, defect: &Defect) -> (SurfaceDefect, f64) {
         Surface::InnerRace => on_race(Race::Inner),
         Surface::Ball => {
             let ball = model.rows[defect.row].first + defect.ball.unwrap_or(0);
-            let mut shape = ball_defect(defect, model.balls[ball].side.radius, hertz);
+            let mut shape = SurfaceDefect::of_ball(defect, model.balls[ball].side.radius, hertz);
             shape.widen(widths[0].max(widths[1]));
             (shape, 0.0)
         }
@@ -331,7 +327,6 @@ impl Watched {
             shape,
             on: defect.on,
             origin,
-            felt: true,
             pairs: Arc::clone(pairs),
             contacts: at.into_iter().map(contact).collect(),
             passes: 0,
@@ -372,9 +367,6 @@ impl Watched {
         let contact = &mut self.contacts[contact];
         if contact.pass == Pass::None {
             contact.pass = Pass::Untouched;
-        }
-        if !self.felt {
-            return;
         }
         let [ball, ring] = model.facing(y, contact.ball, contact.race);
         let at_defect = DefectContact {

@@ -46,8 +46,7 @@ use crate::base::error::Result;
 use crate::base::interrupt;
 use crate::forces::blame;
 use crate::inspect::{self, MomentOnRing, RaceFilm};
-use crate::model::{self, Ball, BodyId, Dof, Model, Placed, Race};
-use crate::reduction::axial_places;
+use crate::model::{self, Ball, BodyId, Model, Placed, Race};
 use crate::scene::{Doubt, Scene, Spin};
 pub(crate) use at_rest::DefectPasses;
 use at_rest::Equilibria;
@@ -212,17 +211,16 @@ fn solved(scene: &Scene, control: RaceControl) -> Result<Equilibrium> {
     Ok(solve(&model, control.on(&model))?.describe(&model))
 }
 
-/// Positions of the equilibrium in a state vector with zero velocities. Where rings and rows are to keep their axial
-/// places, those of the equilibrium with balls that move along z are taken, and the rest balances anew: balls that
-/// share one place would otherwise be pressed more or less than they bear.
+/// Positions of the equilibrium in a state vector with zero velocities.
 pub(crate) fn positions(model: &Model) -> Result<Vec<f64>> {
-    in_place(model, RaceControl::Friction, Spacing::Equal).map(|solved| solved.y)
+    solve(model, RaceControl::Friction).map(|solved| solved.y)
 }
 
 /// The same with the speeds of all bodies: of balls that run fast those at which they go on as they stand there, of others those at which
 /// they roll at their contact angles, which are next to them.
 pub(crate) fn in_motion(model: &Model, control: RaceControl, spacing: Spacing) -> Result<Vec<f64>> {
-    let Solved { mut y, speeds, .. } = in_place(model, control, spacing)?;
+    let Solved { mut y, speeds, .. } =
+        solve_with(|| Problem::new(model).controlled(control).spaced(spacing))?;
     if speeds.is_empty() {
         rolling::at_contacts(model, control, &mut y);
     } else {
@@ -236,25 +234,6 @@ pub(crate) fn in_motion(model: &Model, control: RaceControl, spacing: Spacing) -
         fallen::advance(model, &mut y);
     }
     Ok(y)
-}
-
-fn in_place(model: &Model, control: RaceControl, spacing: Spacing) -> Result<Solved> {
-    let solved = solve_with(|| Problem::new(model).controlled(control).spaced(spacing))?;
-    let Some(axial_places) = axial_places(model, &solved.y) else {
-        return Ok(solved);
-    };
-    let layout = model.layout();
-    let mut rings = Rings::zeros();
-    for (at, race, dof) in unknowns::all() {
-        rings[at] = match dof {
-            Dof::Z => axial_places.rings[race],
-            // Tilted rings have no planes of symmetry.
-            Dof::TiltX | Dof::TiltY => 0.0,
-            _ => solved.y[layout.at(race.ring(), dof)],
-        };
-    }
-    let problem = Problem::in_planes(model, axial_places);
-    solve_from(problem.controlled(control).spaced(spacing), rings)
 }
 
 /// Solution of the solver.

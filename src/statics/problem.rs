@@ -11,7 +11,6 @@ use super::unknowns::{self, OF_A_RING, OF_RINGS, RingStiffness, Rings};
 use crate::contact::{Tangent, V2, centrifugal};
 use crate::forces::{self, gravity, load, support};
 use crate::model::{BodyId, Dof, Model, Race};
-use crate::reduction::AxialPlaces;
 
 pub(super) struct Problem<'m> {
     pub(super) model: &'m Model,
@@ -39,8 +38,6 @@ pub(super) struct Problem<'m> {
     pub(super) magnitude: f64,
     /// How far the contacts of each row's balls give.
     pub(super) springs: Vec<RowSpring>,
-    /// Axial places that rings and rows keep, where they do.
-    pub(super) axial_places: Option<AxialPlaces>,
     /// Places of the rings where their springs are relaxed.
     nominal: Rings,
     /// Loads that act off the rings' centres of mass.
@@ -105,7 +102,6 @@ impl<'m> Problem<'m> {
                 .iter()
                 .map(|row| RowSpring::of(model, row))
                 .collect(),
-            axial_places: None,
             nominal: Self::nominal(model),
             pushes: Push::all(model),
             turning,
@@ -137,22 +133,6 @@ impl<'m> Problem<'m> {
         Self { spacing, ..self }
     }
 
-    /// The same where rings and rows keep their axial places.
-    pub(super) fn in_planes(model: &'m Model, axial_places: AxialPlaces) -> Self {
-        let mut problem = Self::new(model);
-        problem.free.retain(|at| unknowns::degree(*at).1 != Dof::Z);
-        problem.axial_places = Some(axial_places);
-        problem
-    }
-
-    /// The axial place that a ball keeps, if it does.
-    fn axial_place(&self, j: usize) -> Option<f64> {
-        let row = self.model.balls[j].row;
-        self.axial_places
-            .as_ref()
-            .map(|axial_places| axial_places.rows[row])
-    }
-
     /// A typical contact stiffness.
     pub(super) fn stiffness(&self) -> f64 {
         self.model.scales.load / self.model.scales.approach
@@ -180,8 +160,6 @@ impl<'m> Problem<'m> {
     pub(super) fn ball_at(&self, j: usize, rings: &Rings, place: Vector2<f64>) -> BallState {
         let ball = &self.model.balls[j];
         let direction = self.directions[j];
-        let kept = self.axial_place(j);
-        let place = Vector2::new(place.x, kept.unwrap_or(place.y));
         let centre = Vector3::new(direction.x * place.x, direction.y * place.x, place.y);
         let from_rings = Race::BOTH.map(|race| self.seen(rings, race, &centre));
         let contacts = Race::BOTH.map(|race| {
@@ -207,10 +185,6 @@ impl<'m> Problem<'m> {
         force.x += pull[0] * direction.x;
         force.x += pull[1] * direction.y;
         force.y += pull[2];
-        if kept.is_some() {
-            // What keeps the ball in its plane.
-            force.y = 0.0;
-        }
         BallState {
             place,
             force,
@@ -261,9 +235,6 @@ impl<'m> Problem<'m> {
         axial += degrees[Dof::Z].stiffness();
         // The centrifugal force grows with the radius.
         radial += self.cage_spring[j].stiffness() - self.outwards[j];
-        if self.axial_place(j).is_some() {
-            return Matrix2::from_diagonal(&Vector2::new(radial, self.stiffness()));
-        }
         Matrix2::new(
             radial,
             x * k[(0, 2)] + y * k[(1, 2)],
@@ -298,10 +269,6 @@ impl<'m> Problem<'m> {
                 (pulled[(0, a)], pulled[(1, a)]) = both;
                 (pulling[(a, 0)], pulling[(a, 1)]) = both;
             }
-        }
-        if self.axial_place(j).is_some() {
-            pulled.row_mut(1).fill(0.0);
-            pulling.column_mut(1).fill(0.0);
         }
         (pulled, pulling)
     }

@@ -1,7 +1,5 @@
 //! The contacts, held at the places of a state, and the matrix of their slopes.
 
-use std::ops::Range;
-
 use super::arrow::{Arrow, EightOnRing};
 use super::carrier::{Carrier, RingRotation};
 use super::held_balls::{HeldBalls, Met};
@@ -36,16 +34,12 @@ pub(super) struct ContactMatrix<const N: usize> {
 }
 
 impl<const N: usize> ContactMatrix<N> {
-    /// The matrix for the contacts of some rows.
-    pub fn new(model: &Model, rows: Range<usize>) -> Self {
-        let kind = Guarantees {
-            rows,
-            ..Guarantees::whole(model)
-        };
+    /// The matrix for the contacts of all rows.
+    pub fn new(model: &Model) -> Self {
         let balls = model.balls.len();
         let eights = model.classes().map(|class| model.eights(class)).sum();
         Self {
-            search: Batch::new(model, kind),
+            search: Batch::new(model, Guarantees::default()),
             meetings: vec![<[Met; 2]>::default(); balls],
             batches: vec![HeldBalls::default(); eights],
             active: 0,

@@ -361,7 +361,7 @@ fn reductions_change_nothing() {
                 dynamics.expand(0.0, &y, &mut full);
                 dynamics.rhs(0.0, &y, &mut own);
                 rates.copy_from_slice(&full);
-                dynamics.expand_rates(0.0, &y, &own, &mut rates);
+                dynamics.expand_rates(0.0, &own, &mut rates);
                 rhs(&model, 0.0, &full, &mut wanted);
                 let most = wanted[half..].iter().fold(0.0_f64, |m, a| m.max(a.abs()));
                 for j in half..2 * half {

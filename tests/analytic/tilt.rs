@@ -160,10 +160,6 @@ fn what_cannot_tilt_is_refused_by_name() {
             }),
         ),
         (
-            "approximations",
-            Box::new(|s| s.approximations.plane = true),
-        ),
-        (
             "unbalances.rotor.ring",
             Box::new(|s| {
                 s.drive = ballrace::scene::Drive::Torque {

@@ -3,7 +3,6 @@
 #[path = "../common/mod.rs"]
 mod common;
 
-mod approximations;
 mod blocks;
 mod cage_ring;
 mod kernel;

@@ -42,8 +42,6 @@ fn scenes() -> Vec<(&'static str, Scene)> {
     let support = &mut tilting.inner_ring.support;
     (support.tilt_x, support.tilt_y) = (Some(Mount::Free), Some(Mount::Free));
     tilting.spin = Some(Spin::Free);
-    let mut rolling = presets::wheel_bearing(3000.0);
-    rolling.approximations.rolling = true;
     let mut seated = deep.clone();
     let foot = Mode::new(1200.0, 0.05, 2.0, [0.1, 1.0, 0.0]).sensor("top", [0.0, 1.0, 0.0]);
     seated.structure = Some(Structure::new(vec![foot]));
@@ -64,7 +62,6 @@ fn scenes() -> Vec<(&'static str, Scene)> {
         ("oil, speed rising", ramp),
         ("tilting, spinning", tilting),
         ("on a structure", seated),
-        ("rolling", rolling),
     ]
 }
 

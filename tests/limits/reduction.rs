@@ -83,7 +83,7 @@ fn difference(scene: &Scene) -> f64 {
         dynamics.expand(t, &y, &mut full);
         dynamics.rhs(t, &y, &mut own);
         rates.copy_from_slice(&full);
-        dynamics.expand_rates(t, &y, &own, &mut rates);
+        dynamics.expand_rates(t, &own, &mut rates);
         rhs(&model, t, &full, &mut wanted);
         let loads: f64 = (0..model.body_count() - 2)
             .flat_map(|j| {

@@ -6,8 +6,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use ballrace::compile;
 use ballrace::scene::{
-    Approximations, Component, Drive, Friction, MotionProbe, Mount, Probe, Profile, Scene,
-    TimeFunction, presets,
+    Component, Drive, Friction, MotionProbe, Mount, Probe, Profile, Scene, TimeFunction, presets,
 };
 use ballrace::{Bandwidth, Run, Signals, Start, start};
 use common::{rms, run};
@@ -329,35 +328,4 @@ fn threads_do_not_change_the_bits() {
         run(&scene, &asked).columns
     };
     assert_eq!(on(1), on(3));
-}
-
-/// The first 10 ms under an approximation are as the later ones.
-#[test]
-fn approximations_begin_in_balance() {
-    for (rolling, plane) in [(false, true), (true, true), (true, false)] {
-        let mut scene = presets::wheel_bearing(3000.0);
-        scene.defects.clear();
-        scene.name = format!("rolling {rolling}, plane {plane}");
-        scene.approximations = Approximations::NONE;
-        let asked = &mut scene.approximations;
-        asked.rolling = rolling;
-        asked.plane = plane;
-        for settle in [Some(0.0), None] {
-            let asked = Run {
-                duration: 0.04,
-                settle,
-                ..Run::default()
-            };
-            let out = run(&scene, &asked);
-            let ay = out.get("outer.ay").unwrap();
-            let [first, later @ ..] = [0, 1, 2, 3].map(|k| rms(&ay[500 * k..500 * (k + 1)]));
-            println!("{} {settle:?} {first} {later:?}", scene.name);
-            let loudest = later.into_iter().fold(0.0, f64::max);
-            assert!(
-                first <= 1.5 * loudest,
-                "{} {settle:?}: {first} {later:?}",
-                scene.name
-            );
-        }
-    }
 }

@@ -8,8 +8,8 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use ballrace::compile;
 use ballrace::scene::{
-    Approximations, AxialOffset, Cap, Defect, Drive, Friction, Patch, Profile, RingName, Scene,
-    Surface, TimeFunction, Width, WidthProfile, presets,
+    AxialOffset, Cap, Defect, Drive, Friction, Patch, Profile, RingName, Scene, Surface,
+    TimeFunction, Width, WidthProfile, presets,
 };
 use ballrace::{
     BallEquilibrium, Error, Placed, Run, Signals, Start, Touched, Warning, equilibrium, explain,
@@ -226,14 +226,8 @@ fn reduced_runs_see_what_full_ones_see() {
         scene.friction = Friction::None;
         scene
     };
-    let approximated = |mut scene: Scene, approximations: Approximations| {
-        scene.approximations = approximations;
-        scene
-    };
     let radial = || presets::deep_groove_6205(500.0, 0.0, 1800.0);
     let outer = || spall(Surface::OuterRace).at_angle(-FRAC_PI_2 + 0.1);
-    let mut rolling_in_plane = Approximations::NONE;
-    (rolling_in_plane.rolling, rolling_in_plane.plane) = (true, true);
     let scenes = [
         (
             "closed, in the plane",
@@ -242,10 +236,6 @@ fn reduced_runs_see_what_full_ones_see() {
         ("closed", frictionless(with(angular_7208(), outer()))),
         ("mirrored rows", both_rows(Surface::OuterRace)),
         ("mirrored, inner", both_rows(Surface::InnerRace)),
-        (
-            "rolling in the plane",
-            approximated(with(angular_7208(), outer()), rolling_in_plane),
-        ),
         (
             "a ball",
             with(radial(), spall(Surface::Ball).at_angle(-FRAC_PI_2 + 0.4)),
@@ -280,7 +270,6 @@ fn reduced_runs_see_what_full_ones_see() {
 fn passes_are_those_of_the_kinematics() {
     let scene = |on| {
         let mut scene = with(angular_7208(), spall(on));
-        scene.approximations.rolling = true;
         scene.solver.rtol = 1e-3.into();
         scene
     };
@@ -449,32 +438,6 @@ fn width_counts_from_zero() {
         vec![0.0, 0.0, 1e-3],
     )));
     assert!(spall_of(&wedge).largest_load < spall_of(&narrow).largest_load);
-}
-
-/// What a run leaves out meets no defect.
-#[test]
-fn a_row_left_out_touches_nothing() {
-    let mut scene = presets::wheel_bearing(20e3);
-    scene.loads.get_mut("radial").unwrap().force = 500.0.into();
-    let idle = |out: &Signals| {
-        let mut left_out = out.provenance.left_out.iter();
-        left_out.any(|of| of.what == "balls of the unloaded row")
-    };
-    for row in [0, 1] {
-        let mut scene = with(
-            scene.clone(),
-            spall(Surface::OuterRace)
-                .in_row(row)
-                .at_angle(-FRAC_PI_2 + 0.1),
-        );
-        scene.approximations.one_row = true;
-        scene.rows[1].start_angle = scene.rows[0].start_angle;
-        let out = run(&scene, &short(3e-3));
-        assert!(idle(&out));
-        println!("row {row}: {:?}", spall_of(&out));
-        assert!(spall_of(&out).passes > 0);
-        assert_eq!(spall_of(&out).touched > 0, row == 0);
-    }
 }
 
 /// Without an equilibrium or a load the nominal contact angle says where, and so does the provenance.

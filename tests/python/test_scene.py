@@ -193,10 +193,6 @@ def scenes() -> list[s.Scene]:
         br.presets.deep_groove_6205(),
         full,
         full.replace({"friction": s.Coulomb(coefficient=0.1, slip_speed=0.1)}),
-        dataclasses.replace(
-            br.presets.wheel_bearing(),
-            approximations=s.Approximations(rolling=True, plane=True, one_row=True),
-        ),
         full.replace(
             {
                 "friction": s.Stribeck(
@@ -605,15 +601,6 @@ LED: list[tuple[str, s.TimeFunction]] = [
     ("outer_ring.support.theta", 0.0),
 ]
 """Motions that no ring can be given."""
-
-
-@pytest.mark.parametrize("asked", ["plane", "one_row"])
-def test_what_keeps_axial_places_is_refused_where_one_is_given(wheel: s.Scene, asked: str) -> None:
-    led = wheel.replace({"inner_ring.support.z": s.Given(0.0)})
-    with pytest.raises(
-        br.SceneError, match=rf"^approximations\.{asked} = true: false where a ring's"
-    ):
-        led.replace({f"approximations.{asked}": True})
 
 
 def test_rings_that_are_led_are_not_the_record() -> None:

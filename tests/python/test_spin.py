@@ -306,8 +306,6 @@ RING = s.MotionProbe(body="inner", components=("omega_x",))
             r"probes\.ring\.motion\.components = omega_x: a component of inner",
         ),
         ({"spin": "axial", "probes": {"ball": BALL}}, r'omega_x: .* need spin = "free"'),
-        ({"approximations.rolling": True}, r"approximations.*balls spin freely"),
-        ({"approximations.plane": True}, r"approximations.*balls spin freely"),
     ],
 )
 def test_what_cannot_spin_freely_is_refused_by_name(

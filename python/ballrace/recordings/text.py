@@ -9,7 +9,9 @@ import numpy as np
 
 from .._io.parquet import writing_to
 from ..errors import FileError, SceneError
-from .layout import broken_row, kind_of, kinds_of, layout_of
+from .fields import kind_of, kinds_of
+from .headers import broken_row
+from .layout import layout_of
 from .lines import Text, lines_of
 from .preamble import described
 from .sampled import sampled, signals_of

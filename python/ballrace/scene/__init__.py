@@ -12,7 +12,6 @@ Where a field may be one of several things, its type says so: ``friction="none"`
 from __future__ import annotations
 
 from .._base.later import listed
-from .approximations import Approximations
 from .bearing import GothicArch, RaceProfile, Ring, RingName, Row, Waviness
 from .cage import Cage, CageGuidance, CageRing
 from .contact import AccurateSlices, Contact, FittedSlices, FixedSlices, Iso16281, NormalLaw, Slices
@@ -61,7 +60,6 @@ from .time import Ramp, Sine, Spline, Table, TimeFunction
 
 __all__ = [
     "AccurateSlices",
-    "Approximations",
     "AxialOffset",
     "BaseOil",
     "Cage",

@@ -16,7 +16,6 @@ from .._base.html import folded, paragraph, points
 from .._io.files import as_path
 from .._io.toml import check_depth, loads
 from ..errors import SceneError
-from .approximations import Approximations
 from .bearing import Ring, Row
 from .cage import Cage, CageRing
 from .contact import Contact
@@ -99,8 +98,6 @@ class Scene(Part):
         inner ring, in the directions that can move; where both are held or follow given motions, the loads of all
         contacts (``row0`` and so on). With a structure also its sensors (``housing``) and the force on its seat
         (``seat``).
-    approximations : Approximations
-        Approximations that make runs faster; none by default.
     solver : Solver
         Options of the integrator.
 
@@ -135,7 +132,6 @@ class Scene(Part):
     table_forces: Mapping[str, TableForce] = field(default_factory=_empty, metadata=LEFT_OUT)
     defects: Mapping[str, Defect] = field(default_factory=_empty)
     probes: Mapping[str, Probe] = field(default_factory=_empty)
-    approximations: Approximations = Approximations()
     solver: Solver = Solver()
 
     def __hash__(self) -> int:

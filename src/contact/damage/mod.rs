@@ -25,7 +25,7 @@ use nalgebra::Vector3;
 
 use super::{Motion, V2, wrapped};
 use crate::contact::hertz::Hertz;
-use crate::scene::{Damage, Defect};
+use crate::scene::{Damage, Defect, Row};
 pub(super) use arc::WITH_RING_AXIS;
 use arc::{Arc, Station};
 use cap::CompiledCap;
@@ -38,7 +38,7 @@ use small::SmallBed;
 pub(super) use depth::{Depth, Sloped};
 pub(super) use facing::{Facing, Node, SurfaceSide};
 pub(super) use gradient::{BESIDE, Owner};
-pub(crate) use hole::PittedContact;
+pub(super) use hole::PittedContact;
 pub(super) use hole::Unloading;
 pub(super) use released::Moving;
 pub(crate) use released::{MOST_AT_ONCE, met_at_once};
@@ -65,7 +65,7 @@ pub struct SurfaceDefect {
 }
 
 /// The surface in which a damage lies.
-pub(crate) struct Bed {
+pub(super) struct Bed {
     /// Axial place of the damage's middle, in the ring's frame or from the ball's centre \[m\].
     pub middle: f64,
     /// Radius of the race there or of the ball \[m\].
@@ -224,8 +224,39 @@ impl SurfaceDefect {
         Self::within(defect, &Bed::round(middle, radius, contacts))
     }
 
+    /// A defect of a race of a row, on which balls press by a stiffness. `radii` has the race's radius at a place \[m\], and the least
+    /// over a length about it.
+    pub(crate) fn of_race(
+        defect: &Defect,
+        row: &Row,
+        hertz: &Hertz,
+        radii: impl Fn(f64, f64) -> [f64; 2],
+    ) -> Self {
+        let middle = row.axial_position + offset(defect);
+        let [radius, least] = radii(middle, defect.damage.length().unwrap_or(0.0));
+        let bed = Bed {
+            middle,
+            radius,
+            least,
+            contacts: [PittedContact::of(hertz); 2],
+        };
+        Self::within(defect, &bed)
+    }
+
+    /// A defect of a ball of this radius, with its contacts with both races.
+    pub(crate) fn of_ball(defect: &Defect, radius: f64, hertz: &[Hertz; 2]) -> Self {
+        let reach = offset(defect).abs() + defect.damage.length().unwrap_or(0.0) / 2.0;
+        let bed = Bed {
+            middle: offset(defect),
+            radius,
+            least: (radius * radius - reach * reach).max(0.0).sqrt(),
+            contacts: hertz.each_ref().map(PittedContact::of),
+        };
+        Self::within(defect, &bed)
+    }
+
     /// A defect in its bed.
-    pub(crate) fn within(defect: &Defect, bed: &Bed) -> Self {
+    pub(super) fn within(defect: &Defect, bed: &Bed) -> Self {
         let kind = AnyDamage::new(&defect.damage, bed);
         Self {
             angle: defect.angle,
@@ -380,4 +411,10 @@ impl SurfaceDefect {
         let found = Unloading::of(of, 0.4 * load * depth, &[released]);
         Some((load * (1.0 - found.share), found.exponent))
     }
+}
+
+/// Axial place of a defect's middle, from the row's plane or the ball's centre \[m\].
+fn offset(defect: &Defect) -> f64 {
+    let number = defect.axial_offset.number();
+    number.expect("defects are placed before a scene is compiled")
 }

@@ -117,3 +117,49 @@ impl Cuts for CompiledPatch {
         self.edges.floor
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::contact::{Motion, SurfaceDefect};
+    use crate::model::Race;
+    use crate::scene::{Defect, Patch, Surface, presets};
+
+    /// Analytic: a spall as long as the groove is wide is seen wherever a slice may meet it, and hardly further, though the race is not
+    /// equally wide along it.
+    #[test]
+    fn a_defect_reaches_as_far_as_its_widest_slice() {
+        let (width, length) = (3e-3, 5e-3);
+        for (race, on) in [
+            (Race::Outer, Surface::OuterRace),
+            (Race::Inner, Surface::InnerRace),
+        ] {
+            for offset in [-0.5e-3, 0.0, 1e-3] {
+                let scene = presets::deep_groove_6205(500.0, 0.0, 1800.0);
+                let model = crate::compile(&scene).unwrap();
+                let row = &model.rows[0];
+                let defect = Defect::of(
+                    Patch::of_width(width).length(length).edge_radius(0.3e-3),
+                    on,
+                    0.0,
+                )
+                .at_offset(offset);
+                let pair = &row.pairs[race];
+                let hertz = &row.hertz[race];
+                let defect = SurfaceDefect::of_race(&defect, &scene.rows[0], hertz, |z, length| {
+                    pair.radii(z, length)
+                });
+                let mut widest = 0.0_f64;
+                for k in 0..=1000 {
+                    let z = offset + length * (f64::from(k) / 1000.0 - 0.5) * 0.999;
+                    let radius = pair.radius_at(z).unwrap();
+                    let half = width / (2.0 * radius);
+                    let covers = |offset| defect.covers(z, radius, offset, &Motion::default());
+                    assert!(covers(0.999 * half) && !covers(1.001 * half), "{z}");
+                    widest = widest.max(half);
+                }
+                let over = defect.reach / widest;
+                assert!((1.0..1.02).contains(&over), "{on:?}, {offset}: {over}");
+            }
+        }
+    }
+}

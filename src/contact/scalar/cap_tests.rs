@@ -3,10 +3,11 @@
 use nalgebra::{Rotation3, Vector3};
 
 use super::gradient_tests::{RADIUS, pair};
+use crate::contact::damage::{Bed, PittedContact};
 use crate::contact::hertz::Hertz;
 use crate::contact::{
-    BallSide, Bed, ContactForce, Damping, Motion, Pair, PittedContact, PointForce, Sink,
-    SurfaceDefect, Torus, Traction, V2, Wrench, ZoneSlices,
+    BallSide, ContactForce, Damping, Motion, Pair, PointForce, Sink, SurfaceDefect, Torus,
+    Traction, V2, Wrench, ZoneSlices,
 };
 use crate::scene::{Cap, Defect, Floor, Friction, Material, Patch, Pit, Surface, WidthProfile};
 

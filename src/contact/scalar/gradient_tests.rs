@@ -5,11 +5,12 @@ use std::f64::consts::PI;
 use nalgebra::Vector3;
 
 use super::*;
+use crate::contact::damage::{Bed, PittedContact};
 use crate::contact::hertz::Hertz;
 use crate::contact::iso16281::Iso16281;
 use crate::contact::{
-    BallSide, Bed, ContactForce, Elastic, Law, Motion, Pair, PittedContact, PointForce, Rules,
-    Shape, SurfaceDefect, Torus, Waves, WrenchSum, ZoneSlices,
+    BallSide, ContactForce, Elastic, Law, Motion, Pair, PointForce, Rules, Shape, SurfaceDefect,
+    Torus, Waves, WrenchSum, ZoneSlices,
 };
 use crate::scene::{
     Damage, Defect, Dent, Floor, Material, Patch, Pit, Surface, Waviness, Width, WidthProfile,

@@ -167,6 +167,17 @@ impl Pair {
         }
     }
 
+    /// Radius of the race at a place \[m\], and the least over a length about it, to the step of a fine grid: one groove has it at an
+    /// end or in its middle, a curve through points anywhere.
+    pub(crate) fn radii(&self, middle: f64, length: f64) -> [f64; 2] {
+        const PLACES: u32 = 64;
+        let place = |k: u32| middle + length * (f64::from(k) / f64::from(PLACES) - 0.5);
+        // Validation keeps the middle of a defect inside the groove.
+        let radius = self.radius_at(middle).unwrap_or(self.race.a);
+        let radii = (0..=PLACES).filter_map(|k| self.radius_at(place(k)));
+        [radius, radii.fold(radius, f64::min)]
+    }
+
     /// Distance from the ring's axis and axial place \[m\] of a ball that is pressed into the race by an approach where its
     /// contact nominally is: at the bottom of a torus.
     pub(crate) fn seat(&self, radius: f64, approach: f64) -> (f64, f64) {

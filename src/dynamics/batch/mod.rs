@@ -12,7 +12,6 @@ mod single;
 mod view;
 
 use std::array::from_fn;
-use std::ops::Range;
 
 use nalgebra::Vector3;
 
@@ -32,31 +31,20 @@ pub(crate) use view::{RingView, View};
 pub(crate) type OnRings = [[Vector3<f64>; 2]; 2];
 
 /// Guarantees of a reduction, so that a batch may use them.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Guarantees {
-    /// Rows whose contacts are evaluated.
-    pub rows: Range<usize>,
     /// Guarantee that all bodies stay in the planes of their rows.
     pub symmetric: bool,
     /// The second row is an image of the first.
     pub mirrored: bool,
 }
 
-impl Guarantees {
-    /// The guarantees of all rows, where anything is possible.
-    pub fn whole(model: &Model) -> Self {
-        Self {
-            rows: 0..model.rows.len(),
-            symmetric: false,
-            mirrored: false,
-        }
-    }
-}
-
 /// The memory for all contacts of a model, and their sums after an evaluation.
 #[derive(Debug, Clone)]
 pub(crate) struct Batch {
     kind: Guarantees,
+    /// Number of the rows whose contacts are evaluated.
+    rows: usize,
     /// The balls by eights, for the search.
     stretches: Vec<Neighbours>,
     /// Constants of the contacts with the outer and with the inner race.
@@ -78,8 +66,8 @@ impl Batch {
     pub fn new(model: &Model, kind: Guarantees) -> Self {
         let constants: [SideConstants; 2] = Race::BOTH.map(|race| SideConstants::new(model, race));
         let mut stretches = Vec::new();
-        for row in kind.rows.clone() {
-            let compiled = &model.rows[row];
+        let rows = if kind.mirrored { 1 } else { model.rows.len() };
+        for (row, compiled) in model.rows[..rows].iter().enumerate() {
             for start in (0..compiled.count).step_by(LANES) {
                 let (first, count) = (compiled.first + start, LANES.min(compiled.count - start));
                 stretches.push(Neighbours::new(model, row, first, count));
@@ -90,6 +78,7 @@ impl Batch {
         Self {
             groups: vec![Group::default(); 2 * eights.sum::<usize>()],
             kind,
+            rows,
             stretches,
             constants,
             touching: (0..model.rows.len())
@@ -285,9 +274,9 @@ impl Batch {
         rings
     }
 
-    /// Rows that are evaluated.
-    pub fn rows(&self) -> Range<usize> {
-        self.kind.rows.clone()
+    /// Number of the rows that are evaluated, the first ones.
+    pub fn rows(&self) -> usize {
+        self.rows
     }
 
     /// Whether one row stands for two.

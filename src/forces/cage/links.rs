@@ -31,7 +31,7 @@ impl Force for LinkForces {
     #[inline]
     fn add(&self, model: &Model, at: &Instant<'_>, sums: &mut ForceSums<'_>) {
         if let Some(cage) = model.scene.cage_links() {
-            for row in &model.rows[at.rows.clone()] {
+            for row in &model.rows[..at.rows] {
                 model.instructions.run_wide(Links {
                     cage,
                     row,

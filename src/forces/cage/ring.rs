@@ -51,8 +51,8 @@ impl Force for CageRings {
     }
 
     fn add(&self, model: &Model, at: &Instant<'_>, sums: &mut ForceSums<'_>) {
-        for row in at.rows.clone() {
-            if let Some(cage) = &model.rows[row].cage {
+        for (row, of) in model.rows[..at.rows].iter().enumerate() {
+            if let Some(cage) = &of.cage {
                 add(model, row, cage, at, sums);
             }
         }
@@ -243,15 +243,10 @@ pub(crate) fn pocket_forces(model: &Model, y: &[f64], at: usize) -> Vec<f64> {
         .collect()
 }
 
-/// A ball that is no longer in its pocket, by its number among all balls, of rows whose balls move: beside it by more than its radius, or
-/// on the other side of the axis.
-pub(crate) fn out_of_pocket(
-    model: &Model,
-    state: &State,
-    rows: std::ops::Range<usize>,
-) -> Option<usize> {
-    for at in rows {
-        let row = &model.rows[at];
+/// A ball that is no longer in its pocket, by its number among all balls, of the first rows, whose balls move: beside it by more than its
+/// radius, or on the other side of the axis.
+pub(crate) fn out_of_pocket(model: &Model, state: &State, rows: usize) -> Option<usize> {
+    for (at, row) in model.rows[..rows].iter().enumerate() {
         let Some(cage) = &row.cage else { continue };
         let centre = plane(state, carrier(model, at));
         let turning = Turning::new(&plane(state, model.layout().cage(at)), &centre);

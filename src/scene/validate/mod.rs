@@ -47,7 +47,6 @@ impl Scene {
             ring_forces,
             defects,
             probes,
-            approximations,
             solver,
         } = self;
         if *schema != SCHEMA {
@@ -80,7 +79,6 @@ impl Scene {
         numbers("", self.numbers())?;
         load::loads(self)?;
         tilt::loads(self)?;
-        self.check_tilted()?;
         for (name, force) in ring_forces.iter() {
             let path = format!("ring_forces.{name}");
             finite(&format!("{path}.stiffness"), force.stiffness())?;
@@ -97,7 +95,6 @@ impl Scene {
             entry_name("probes", name)?;
             probe::probe(self, &format!("probes.{name}"), probe)?;
         }
-        approximations.validate(self)?;
         numbers("solver", solver.numbers())
     }
 

@@ -158,8 +158,7 @@ fn free_orbit(f: &mut Formatter<'_>, slowed: f64) -> Result {
     write!(
         f,
         "nothing drives the balls along their orbit, since contacts have no friction: they lost {:.1} % of its rate, \
-         and fault frequencies moved with them. Give the scene a friction, or approximations.rolling, which keeps the \
-         orbit kinematic",
+         and fault frequencies moved with them. Give the scene a friction",
         100.0 * slowed
     )
 }

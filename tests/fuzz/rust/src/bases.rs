@@ -136,12 +136,8 @@ fn changed() -> Vec<(&'static str, Scene)> {
         ),
         ("filled", of(&options())),
         (
-            "simplified",
+            "traction",
             of(&[
-                (
-                    "approximations",
-                    json!({"rolling": true, "plane": false, "one_row": false}),
-                ),
                 (
                     "materials.balls",
                     json!({"density": 3200.0, "youngs_modulus": 3.1e11, "poisson_ratio": 0.27}),
