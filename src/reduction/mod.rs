@@ -373,7 +373,7 @@ impl Reduction {
         }
     }
 
-    /// Rates of all states from the kept states and their rates. `full` holds them from another time, or zeros.
+    /// Rates of all states from the kept states and their rates.
     pub(crate) fn expand_rates(
         &self,
         model: &Model,
@@ -383,6 +383,7 @@ impl Reduction {
         full: &mut [f64],
     ) {
         let layout = model.layout();
+        full.fill(0.0);
         self.spread(layout, rates, full);
         for motion in &self.prescribed {
             full[layout.at(motion.body, motion.dof)] = motion.course.at(t).1;
