@@ -95,7 +95,8 @@ pub fn sensor_acceleration(model: &Model, rates: &[f64], sensor: &str) -> Result
     check_length(model, rates)?;
     let (layout, half) = (model.layout(), rates.len() / 2);
     let found = model.structure.as_ref();
-    let found = found.map(|of| of.at_sensor(layout, &of.shapes(sensor), &rates[half..]));
+    let found =
+        found.map(|of| StructureModel::at_sensor(layout, &of.shapes(sensor), &rates[half..]));
     Ok(found.map_or([0.0; 3], Into::into))
 }
 

@@ -123,7 +123,7 @@ impl StructureModel {
 
     /// What shapes of a sensor make of the coordinates of the modes among all places, or of their rates.
     #[inline]
-    pub fn at_sensor(&self, layout: Layout, shapes: &[Vector3<f64>], half: &[f64]) -> Vector3<f64> {
+    pub fn at_sensor(layout: Layout, shapes: &[Vector3<f64>], half: &[f64]) -> Vector3<f64> {
         let mut sum = Vector3::zeros();
         for (shape, coordinate) in shapes.iter().zip(coordinates(layout, half)) {
             sum += shape * *coordinate;

@@ -279,9 +279,10 @@ impl Reduction {
         }
     }
 
-    /// Rates of all states from those of the kept states. `full` holds them from another time, or zeros.
+    /// Rates of all states from those of the kept states.
     pub(crate) fn expand_rates(&self, model: &Model, t: f64, rates: &[f64], full: &mut [f64]) {
         let layout = model.layout();
+        full.fill(0.0);
         self.spread(layout, rates, full);
         for motion in &self.prescribed {
             full[layout.at(motion.body, motion.dof)] = motion.course.at(t).1;

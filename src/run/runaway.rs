@@ -57,11 +57,11 @@ impl Bounds {
         let within = |i: usize| (y[i] - self.centre[i]).abs() <= self.reach[i];
         // Numbers that are none are not within. All are looked at, several at a time.
         let bounds = self.centre.iter().zip(&self.reach);
-        let outside = y
+        let inside = y
             .iter()
             .zip(bounds)
-            .map(|(y, (centre, reach))| u64::from(!((y - centre).abs() <= *reach)));
-        if outside.sum::<u64>() == 0 {
+            .map(|(y, (centre, reach))| usize::from((y - centre).abs() <= *reach));
+        if inside.sum::<usize>() == y.len() {
             return None;
         }
         let half = self.degrees.len();

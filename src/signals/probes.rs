@@ -318,11 +318,9 @@ impl ProbeReader {
                 values.extend(inspect::raw::cage_forces(model, y, *row));
             }
             Self::Structure { sensors } => {
-                if let Some(structure) = &model.structure {
-                    for shapes in sensors {
-                        let sensed = structure.at_sensor(layout, shapes, accelerations);
-                        values.extend(sensed.iter());
-                    }
+                for shapes in sensors {
+                    let sensed = StructureModel::at_sensor(layout, shapes, accelerations);
+                    values.extend(sensed.iter());
                 }
             }
             Self::Seat => {
