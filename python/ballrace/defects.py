@@ -65,10 +65,10 @@ def spall(
         Extent along the rolling direction, and across it [mm].
     depth_mm : float, optional
         Depth of its floor [mm]; by default so deep that no ball meets it. A shallow floor is a bed of ten
-        bumps. For a seeded hole of 0.1 to 0.6 mm give 0.77 of the largest approach of the contacts under the
-        load (``br.equilibrium(scene).outer_deflection``; 0.0025 for a 6205 under 300 N): it stands for what
-        carries a ball beside a hole that is shorter than the contact. So levels of four records of Case Western
-        Reserve University are met within a factor of 2, which edges do not bring about; it belongs to one load.
+        bumps. For a seeded hole of 0.1 to 0.6 mm give 0.77 of the largest approach of the contacts under the load
+        (``br.equilibrium(scene).outer_deflection``; 0.0025 for a 6205 under 300 N): it stands for what carries a
+        ball beside a hole that is shorter than the contact. It was fitted at that load, which is assumed, so that
+        four records of Case Western Reserve University have their levels within a factor of 2; edges do not.
     edge_radius_mm : float, optional
         Radius of its rolled edges, that of the fault circles [mm]; by default 0.3. Left out with steep walls.
     walls : {"rolled", "steep"}
