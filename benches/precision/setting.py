@@ -2,8 +2,9 @@
 
 The wheel bearing under 7 kN and +3 kN runs 8 ms from its equilibrium; its last state is the start of every run
 of a chart. In the 6 ms that follow a ball crosses the spall (impact at 3.5 ms). The error is that of the outer
-ring's vertical acceleration, relative, L2, at 100 kHz, and in the band that a record of 50 kHz keeps. Wall times are taken in runs of their own that record
-three samples, one thread, all cases in turn, several rounds; the median counts.
+ring's vertical acceleration, relative, L2, at 100 kHz, and in the band that a record of 50 kHz keeps. Wall
+times are taken in runs of their own that record three samples, one thread, all cases in turn, several rounds;
+the median counts.
 """
 
 from __future__ import annotations
