@@ -12,7 +12,7 @@ use ballrace::scene::{
 };
 use ballrace::{Run, simulate};
 
-fn scenes() -> [(&'static str, Scene); 13] {
+fn scenes() -> Vec<(&'static str, Scene)> {
     let dry = presets::deep_groove_6205(500.0, 0.0, 1797.0);
     let mut oiled = dry.clone();
     oiled.lubricant = Some(Lubricant::named("vg68", 328.15));
@@ -43,7 +43,7 @@ fn scenes() -> [(&'static str, Scene); 13] {
         scene.defects.insert("spall".to_owned(), spall);
         scene
     };
-    [
+    vec![
         ("wheel bearing", presets::wheel_bearing(3000.0)),
         ("6205", dry.clone()),
         ("6205 spall 0.5 mm", spalled(dry.clone(), 0.5e-3)),

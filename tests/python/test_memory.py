@@ -67,7 +67,7 @@ LISTS = {
     "positions": ("br.load_distribution(scene, positions=10**9)", "lower positions"),
     "toml": ("""br.Scene.from_toml("gravity = [" + "1.0," * 10**7 + "]")""", "characters"),
     "json": ("""br.Scene.from_json('{"name": "' + "x" * 10**8 + '"}')""", "characters"),
-    "defects": (MANY.format(count=100_000), "a scene of 16696551 characters"),
+    "defects": (MANY.format(count=100_000), "a scene of 16696479 characters"),
 }
 """What is as long as one likes, and what the refusal names."""
 
