@@ -70,6 +70,9 @@ SHAPES: dict[str, Callable[[Surface, float], br.scene.Defect]] = {
         for radius in (0.02, 0.05, 0.1, 0.2, 0.3)
     },
     "as long as wide": lambda on, width: br.defects.spall(on=on, width_mm=width, length_mm=width),
+    "as long as wide, steep walls": lambda on, width: br.defects.spall(
+        on=on, width_mm=width, length_mm=width, walls="steep"
+    ),
     **{
         f"floor at {depth:g} µm": partial(_spall, depth_mm=1e-3 * depth)
         for depth in (1.0, 2.0, 2.5, 3.0, 4.0)
@@ -224,8 +227,14 @@ def edges() -> str:
     lines = [f"| | {' | '.join(SEEDED)} |", "|---|" + "---|" * len(SEEDED)]
     rows = {"measured": [_level(9.81 * found[name].x) for name in SEEDED]}
     for shape, made in SHAPES.items():
-        spalls = [made(on, width) for on, width in SEEDED.values()]
-        rows[shape] = [_level(resample_poly(_seeded(d)[BEGIN_SEEDED:], 1, 4)) for d in spalls]
+        rows[shape] = []
+        for on, width in SEEDED.values():
+            try:
+                x = _seeded(made(on, width))
+            except br.SceneError:
+                rows[shape].append("refused")
+            else:
+                rows[shape].append(_level(resample_poly(x[BEGIN_SEEDED:], 1, 4)))
     for shape, levels_of in rows.items():
         lines.append(f"| {shape} | {' | '.join(levels_of)} |")
     return "\n".join(lines)

@@ -44,7 +44,7 @@ impl Dynamics<'_> {
         }
     }
 
-    /// The same for the rates of a state.
+    /// The rates of all bodies' states at a time \[s\] from those of a run's states.
     ///
     /// # Panics
     /// If a length is wrong.
@@ -55,7 +55,7 @@ impl Dynamics<'_> {
         }
     }
 
-    /// Rows of the run: whether one stands for two.
+    /// Whether one row of the run stands for two.
     pub(crate) fn is_mirrored(&self) -> bool {
         self.contacts.is_mirrored()
     }

@@ -57,7 +57,7 @@ impl Table {
         std::array::from_fn(|_| chunks.next().unwrap_or_default())
     }
 
-    /// Where the number of a body stands in all tables of so many bodies.
+    /// Place of a body's number in a direction, the same in all tables of as many bodies.
     #[inline(always)]
     pub fn slot(&self, body: BodyId, dof: Dof) -> usize {
         dof.index() * self.stride + body.index()

@@ -25,12 +25,11 @@ const SHARE: f64 = 1.0 / 3.0;
 const FIRST: f64 = 1e-2;
 /// The tightest.
 const TIGHTEST: f64 = 1e-11;
-/// Tolerance and step cap of each setting over those of the one before. With the cap as it is two neighbours that both follow it agree,
+/// Tolerance of each setting over that of the one before.
+const FINER_TOLERANCE: f64 = 0.1;
+/// Step cap of each setting over that of the one before. With the cap as it is two neighbours that both follow it agree,
 /// whatever it leaves: of 40 random bearings three then missed a request of 1e-3, by up to 2.3 times.
-const FINER: Steps = Steps {
-    rtol: 0.1,
-    cap: 0.75,
-};
+const FINER_CAP: f64 = 0.75;
 /// Numbers of nodes tried: the default, then each about half as many again as the one before.
 const NODES: [usize; 7] = [6, 8, 12, 18, 26, 38, 64];
 
@@ -49,7 +48,7 @@ pub(crate) fn choose(
     let mut finest = scene.clone();
     set_nodes(&mut finest, NODES[NODES.len() - 1]);
     let model = compile(&finest)?;
-    let settings = settings(requested, scene, &model);
+    let settings = settings(requested, step_limit::cap(&model));
     scene.solver.frequency_cap = false;
     let mut pilots = Pilots::new(scene, &model, from, pilot)?;
     let share = SHARE * requested;
@@ -121,14 +120,8 @@ impl Steps {
     }
 }
 
-/// Settings from the first one down to the tightest tolerance.
-fn settings(requested: f64, scene: &Scene, model: &Model) -> Vec<Steps> {
-    let solver = &scene.solver;
-    let cap = if solver.frequency_cap {
-        step_limit::largest(solver.method, model)
-    } else {
-        f64::INFINITY
-    };
+/// Settings for a request from the first, loosest one with a cap \[s\] down to the tightest tolerance.
+fn settings(requested: f64, cap: f64) -> Vec<Steps> {
     let mut all = vec![Steps {
         rtol: FIRST * requested,
         cap,
@@ -137,8 +130,8 @@ fn settings(requested: f64, scene: &Scene, model: &Model) -> Vec<Steps> {
         && last.rtol > 1.001 * TIGHTEST
     {
         all.push(Steps {
-            rtol: (FINER.rtol * last.rtol).max(TIGHTEST),
-            cap: FINER.cap * last.cap,
+            rtol: (FINER_TOLERANCE * last.rtol).max(TIGHTEST),
+            cap: FINER_CAP * last.cap,
         });
     }
     all

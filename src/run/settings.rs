@@ -38,11 +38,7 @@ pub(crate) fn threads(model: &Model, asked: usize) -> Result<usize> {
 pub(crate) fn options(model: &Model) -> Options {
     let scene = &model.scene;
     let solver = &scene.solver;
-    let cap = if solver.frequency_cap {
-        step_limit::largest(solver.method, model)
-    } else {
-        f64::INFINITY
-    };
+    let cap = step_limit::cap(model);
     let max_step = solver.max_step.unwrap_or(f64::INFINITY).min(cap);
     let apart = if max_step.is_finite() {
         ROOM * max_step

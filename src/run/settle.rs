@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 use super::Run;
 use super::follow::{Interval, Trajectory};
 use super::settings::{options, threads};
+use super::step_limit;
 use super::watch::StepWatch;
 use crate::base::error::Result;
 use crate::contact::Pair;
@@ -130,11 +131,17 @@ pub(crate) fn settle(
     })
 }
 
-/// The same model with a loose tolerance and a long cap.
+/// A model with a loose tolerance and a long cap, which texture and pits do not shorten: none of it is recorded.
 fn coarse(model: &Model) -> Model {
     let mut coarse = model.clone();
     coarse.fineness.rtol = coarse.fineness.rtol.max(COARSE);
     coarse.fineness.cap_factor = LONG;
+    if coarse.scene.solver.frequency_cap {
+        let cap = step_limit::of_contacts(coarse.scene.solver.method, &coarse);
+        let solver = &mut coarse.scene.solver;
+        solver.max_step = Some(solver.max_step.map_or(cap, |step| step.min(cap)));
+        solver.frequency_cap = false;
+    }
     coarse
 }
 

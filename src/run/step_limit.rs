@@ -51,10 +51,23 @@ fn bounds(method: Method) -> MethodBounds {
 
 /// The largest step \[s\] by which a method is stable and accurate to a few percent, or as accurate as the record's band asks for.
 pub(crate) fn largest(method: Method, model: &Model) -> f64 {
-    let of_contacts = at_damping(method, model.scales.frequency, damping(model));
-    let of_contacts = model.fineness.cap_factor * of_contacts;
     // Eight steps at least on the width of a contact, over which its texture is averaged, or of a pit.
-    of_contacts.min(model.shortest_pass())
+    of_contacts(method, model).min(model.shortest_pass())
+}
+
+/// The same of the contacts' frequency alone, where nothing is recorded that passes them.
+pub(crate) fn of_contacts(method: Method, model: &Model) -> f64 {
+    model.fineness.cap_factor * at_damping(method, model.scales.frequency, damping(model))
+}
+
+/// The cap on steps that a scene asks for \[s\]: infinite where it has none.
+pub(crate) fn cap(model: &Model) -> f64 {
+    let solver = &model.scene.solver;
+    if solver.frequency_cap {
+        largest(solver.method, model)
+    } else {
+        f64::INFINITY
+    }
 }
 
 fn at_damping(method: Method, frequency: f64, damping: f64) -> f64 {

@@ -6,7 +6,8 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use ballrace::compile;
 use ballrace::scene::{
-    Component, Drive, Friction, MotionProbe, Mount, Probe, Profile, Scene, TimeFunction, presets,
+    Component, Defect, Drive, Friction, MotionProbe, Mount, Pit, Probe, Profile, Scene, Surface,
+    TimeFunction, presets,
 };
 use ballrace::{Bandwidth, Run, Signals, Start, start};
 use common::{rms, run};
@@ -328,4 +329,22 @@ fn threads_do_not_change_the_bits() {
         run(&scene, &asked).columns
     };
     assert_eq!(on(1), on(3));
+}
+
+/// Only a record needs short steps over a pit: before it a fast bearing settles in as many as without one.
+#[test]
+fn a_pit_does_not_shorten_the_steps_of_settling() {
+    let healthy = presets::deep_groove_6205(500.0, 0.0, 15_000.0);
+    let mut pitted = healthy.clone();
+    let pit = Defect::of(Pit::of_width(0.178e-3), Surface::OuterRace, -FRAC_PI_2);
+    pitted.defects.insert("pit".to_owned(), pit);
+    let asked = Run {
+        duration: 1e-4,
+        ..Run::default()
+    };
+    let [healthy, pitted] = [healthy, pitted].map(|scene| run(&scene, &asked));
+    assert!(2.0 * pitted.provenance.step_limit < healthy.provenance.step_limit);
+    let [healthy, pitted] = [healthy, pitted].map(|out| out.stats.settling_nfev);
+    // The last 3 ms are as fine as the record.
+    assert!(2 * pitted < 3 * healthy, "{pitted}, {healthy}");
 }

@@ -113,7 +113,7 @@ def _evidence(rows: Sequence[Sequence[str]]) -> tuple[bool, bool]:
 
 
 def _is_fraction(whole: str, part: str) -> bool:
-    """Whether two numbers can hardly be anything else than the sides of a decimal comma."""
+    """Return whether a comma between two numbers can hardly be anything but a decimal mark."""
     padded = len(part) > 1 and part.startswith("0")
     power = re.fullmatch(r"\d{2,}[eEdD][+-]?\d+", part) is not None
     return padded or power or whole in ("-0", "+0")

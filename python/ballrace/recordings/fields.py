@@ -90,12 +90,12 @@ def kinds_of(fields: Sequence[str], number: tuple[str, str]) -> str:
 
 
 def is_row(kinds: str) -> bool:
-    """Whether fields of these kinds are a row of numbers."""
+    """Return whether a line whose fields have these kinds is a row of numbers."""
     return "n" in kinds and "t" not in kinds
 
 
 def is_mixed_row(kinds: str) -> bool:
-    """Whether fields of these kinds have text beside numbers."""
+    """Return whether a line whose fields have these kinds has text beside numbers."""
     return "n" in kinds and "t" in kinds
 
 

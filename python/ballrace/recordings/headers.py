@@ -25,7 +25,7 @@ __all__ = [
 ]
 
 REMARK = "#"
-"""How lines begin that belong to no table."""
+"""Beginnings of lines that are remarks and belong to no table."""
 
 
 def titles_above(
@@ -82,7 +82,7 @@ def _other_splits(text: str, between: str) -> Iterator[list[str]]:
 
 
 def _are_units(fields: Sequence[str]) -> bool:
-    """Whether all fields are units, or say that there is none."""
+    """Return whether all fields of a line are units, or say that there is none."""
     known = [_is_a_unit(text) for text in fields if text]
     return bool(known) and all(known)
 
@@ -105,7 +105,7 @@ def _check_names_line(path: Path, text: str, best: Candidate, width: int) -> Non
 
 
 def are_titles(fields: Sequence[str]) -> bool:
-    """Whether fields may be names or units: text, but for numbers of channels behind the first."""
+    """Return whether fields may be names or units: text, but for numbers of channels behind the first."""
     kinds = "".join(kind_of(text, (".", "")) for text in fields)
     if len(fields) == 1:
         inner = fields[0].strip("[] ")
