@@ -52,7 +52,7 @@ pub use laws::film::Oiled;
 pub(crate) use laws::film::{FilmEffect, FilmNumbers};
 pub use laws::{Cut, Elastic};
 #[doc(hidden)]
-pub use laws::{Damping, Law, Traction};
+pub use laws::{Damping, Law, Squeeze, Traction};
 #[doc(hidden)]
 pub use oil::OilForce;
 pub(crate) use profile::{Before, Contour, Curve, HeightTable, Raise, Section};

@@ -12,6 +12,7 @@ pub(crate) mod gravity;
 pub(crate) mod load;
 pub(crate) mod outside;
 mod rates;
+pub(crate) mod squeeze;
 mod state;
 pub(crate) mod structure;
 mod sums;
@@ -30,10 +31,11 @@ pub(crate) use state::{State, Table};
 pub(crate) use sums::{ForceSums, Instant, RingWrench};
 
 /// The forces that are not contacts, in the order in which they are summed and listed.
-pub(crate) const ALL: [&dyn Force; 10] = [
+pub(crate) const ALL: [&dyn Force; 11] = [
     &cage::links::LinkForces,
     &cage::ring::CageRings,
     &drag::Drag,
+    &squeeze::SqueezeFilms,
     &support::Supports,
     &structure::Seat,
     &gravity::Gravity,
@@ -156,6 +158,8 @@ pub(crate) struct Account {
     pub gravity: f64,
     /// Dissipated in supports and cage.
     pub power: f64,
+    /// Dissipated in squeeze films.
+    pub damping: f64,
 }
 
 impl AddAssign for Account {
@@ -165,6 +169,7 @@ impl AddAssign for Account {
         self.cage += other.cage;
         self.gravity += other.gravity;
         self.power += other.power;
+        self.damping += other.damping;
     }
 }
 

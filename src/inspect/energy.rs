@@ -21,7 +21,7 @@ pub struct Energy {
     pub cage: f64,
     /// Energy in the field of gravity, 0 at the origin.
     pub gravity: f64,
-    /// Power lost to contact damping, of steel and oil.
+    /// Power lost to contact damping, of steel, oil and squeeze films.
     pub damping_power: f64,
     /// Power lost to friction where surfaces slip.
     pub friction_power: f64,
@@ -110,7 +110,7 @@ pub(crate) fn energy(model: &Model, y: &[f64]) -> Energy {
     }
     energy.contact = contacts.energy;
     let powers = contacts.powers;
-    energy.damping_power = powers.damping;
+    energy.damping_power = powers.damping + account.damping;
     energy.friction_power = powers.slip;
     energy.rolling_power = powers.rolling;
     energy

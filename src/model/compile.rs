@@ -1,6 +1,7 @@
 //! Compilation of the scene's names and numbers to the model's arrays.
 
 use std::f64::consts::PI;
+use std::iter;
 
 use super::body::{Body, Degree, ball_mass, conformity, groove_radius, ring_mass};
 use super::loads::{loads, moments};
@@ -8,17 +9,17 @@ use super::race::{RaceGeometry, geometry};
 use super::ring::layout_of;
 use super::{
     Ball, BodyId, CageModel, Dof, Fineness, Model, Race, RingModel, RowModel, Scales, Spring,
-    StructureModel, UnbalanceModel, demand, nodes,
+    SqueezeModel, StructureModel, UnbalanceModel, demand, nodes,
 };
 use crate::base::error::{Error, Result};
 use crate::base::quantities::number;
 use crate::contact::hertz::Hertz;
 use crate::contact::{
-    BallSide, Damping, Elastic, Law, MOST_AT_ONCE, Pair, Rules, Shape, SurfaceDefect, Torus,
-    Traction, V2, Waves, ZoneSlices, met_at_once,
+    BallSide, Damping, Elastic, Law, MOST_AT_ONCE, Pair, Rules, Shape, Squeeze, SurfaceDefect,
+    Torus, Traction, V2, Waves, ZoneSlices, met_at_once,
 };
 use crate::scene::{self, Defect, Mount, Row, Scene, Surface};
-use crate::simd::InstructionSet;
+use crate::simd::{InstructionSet, LANES};
 use crate::tilt::Inertia;
 
 /// Checks and compiles a scene whose defects all have numbers for their places; [`crate::compile()`] gives them those.
@@ -48,6 +49,7 @@ pub(crate) fn compile_placed(scene: &Scene) -> Result<Model> {
             class: i,
             texture_widths: None,
             drag: 0.0,
+            squeeze: squeeze(scene.contact_of(row), row),
             cage: scene.cage_ring().map(|ring| {
                 let (ball, _) = ball_mass(scene, row, row.ball_diameter);
                 Box::new(CageModel::new(scene, ring, i, row, ball))
@@ -321,6 +323,20 @@ fn whole(scene: &Scene, row: &Row, torus: Torus, hertz: Hertz) -> Pair {
         slices,
         defects: Vec::new(),
     }
+}
+
+fn squeeze(contact: &scene::Contact, row: &Row) -> Option<SqueezeModel> {
+    let film = contact.squeeze.filter(|film| film.damping > 0.0)?;
+    let errors = row.diameter_errors.iter().copied();
+    let errors = errors.chain(iter::repeat(0.0)).take(row.ball_count + LANES);
+    Some(SqueezeModel {
+        film: Squeeze {
+            damping: film.damping,
+            thickness: film.thickness,
+            pull: film.pull,
+        },
+        radii: errors.map(|e| 0.5 * (row.ball_diameter + e)).collect(),
+    })
 }
 
 /// Hertz's law has one curvature and one contact: its races must be concave everywhere, with radii of curvature above the ball's.

@@ -28,7 +28,7 @@ mod texture;
 use std::ops::Range;
 
 use crate::contact::hertz::Hertz;
-use crate::contact::{BallSide, Pair, ZoneSlices};
+use crate::contact::{BallSide, Pair, Squeeze, ZoneSlices};
 use crate::scene::{Component, Scene};
 use crate::simd::{InstructionSet, LANES};
 
@@ -100,6 +100,8 @@ pub(crate) struct RowModel {
     pub class: usize,
     /// Half-widths of contacts by which its texture is averaged, where it has one \[m\].
     pub texture_widths: Option<[f64; 2]>,
+    /// Squeeze film of its contacts.
+    pub squeeze: Option<SqueezeModel>,
     /// Drag of a ball over the square of its speed \[N s²/m²\].
     pub drag: f64,
     /// Cage of the row, where that is a ring.
@@ -148,6 +150,14 @@ impl RowModel {
         let links = if count < 3 { count - 1 } else { count };
         (0..links).map(move |j| (first + j, first + (j + 1) % count))
     }
+}
+
+/// Squeeze film of a row compiled.
+#[derive(Debug, Clone)]
+pub(crate) struct SqueezeModel {
+    pub film: Squeeze,
+    /// Radii of the row's balls, padded like a table \[m\].
+    pub radii: Vec<f64>,
 }
 
 /// A ball compiled.

@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::numbers::{BoundedNumber, POSITIVE};
+use super::absent;
+use super::numbers::{BoundedNumber, POSITIVE, up_to};
 
 /// Contact of a ball and a race: elastic law, slices, damping.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -17,6 +18,9 @@ pub struct Contact {
     pub damping: f64,
     /// Whether a slice that would pull is set to zero (and counted); `false` keeps the paper's bare sum.
     pub clamp_pull: bool,
+    /// Film of grease or oil that damps the approach of ball and race where they do not press; absent: none.
+    #[serde(skip_serializing_if = "absent::none")]
+    pub squeeze: Option<SqueezeFilm>,
 }
 
 impl Contact {
@@ -28,6 +32,7 @@ impl Contact {
             slices: _,
             damping,
             clamp_pull: _,
+            squeeze: _,
         } = *self;
         [BoundedNumber::new("damping", damping, 0.0..=1e3, "s/m")]
     }
@@ -40,6 +45,50 @@ impl Default for Contact {
             slices: Slices::Fitted(6),
             damping: 0.2,
             clamp_pull: true,
+            squeeze: None,
+        }
+    }
+}
+
+/// Squeeze film between ball and race ([`Squeeze`](crate::contact::Squeeze)): a force against the speed v at which a gap g closes,
+/// c v/(1 + |g|/h), of a film that is pulled apart at most p.
+///
+/// It takes the rattle from balls that no load presses, and next to nothing from those that carry, whose approach is many times h.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+#[non_exhaustive]
+pub struct SqueezeFilm {
+    /// Damping c where ball and race just touch \[N s/m\].
+    pub damping: f64,
+    /// Thickness h of the film \[m\].
+    pub thickness: f64,
+    /// Largest force p by which the film holds ball and race together \[N\].
+    pub pull: f64,
+}
+
+impl SqueezeFilm {
+    /// Numbers of the film.
+    pub(super) fn numbers(&self) -> [BoundedNumber; 3] {
+        let Self {
+            damping,
+            thickness,
+            pull,
+        } = *self;
+        [
+            BoundedNumber::new("damping", damping, 0.0..=1e4, "N s/m"),
+            BoundedNumber::new("thickness", thickness, 1e-9..=1e-3, "m"),
+            BoundedNumber::new("pull", pull, up_to(1e3), "N"),
+        ]
+    }
+}
+
+impl Default for SqueezeFilm {
+    /// Starved grease in a 6205.
+    fn default() -> Self {
+        Self {
+            damping: 15.0,
+            thickness: 0.3e-6,
+            pull: 0.02,
         }
     }
 }

@@ -68,7 +68,7 @@ use numbers::BoundedNumber;
 pub(crate) use antiderivative::Antiderivative;
 pub use bearing::{GothicArch, RaceProfile, Row, Waviness};
 pub use cage::{Cage, CageGuidance, CageLinks, CageRing};
-pub use contact::{Contact, Friction, NormalLaw, Slices};
+pub use contact::{Contact, Friction, NormalLaw, Slices, SqueezeFilm};
 pub use contact_quantity::ContactQuantity;
 pub use damage::{Cap, Damage, Dent, Patch, Pit, RIM, SteepPatch};
 pub use defect::Defect;

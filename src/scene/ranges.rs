@@ -9,8 +9,8 @@ use super::numbers::BoundedNumber;
 use super::{
     CageLinks, CageRing, Cap, Contact, CoupledSupport, Damage, Defect, Dent, Drive, Floor,
     Friction, GothicArch, Load, Lubricant, Material, Mode, Mount, NormalLaw, Patch, Pit,
-    RaceProfile, Ring, RingName, Row, Scene, Slices, SlicesProbe, Solver, SteepPatch, Surface,
-    TableForce, Texture, Unbalance, Waviness, WidthProfile,
+    RaceProfile, Ring, RingName, Row, Scene, Slices, SlicesProbe, Solver, SqueezeFilm, SteepPatch,
+    Surface, TableForce, Texture, Unbalance, Waviness, WidthProfile,
 };
 
 /// What JSON Schema says of the numbers of each part, by the part and its field: `minimum`, `maximum`, `exclusiveMinimum`,
@@ -110,6 +110,7 @@ fn of_contacts() -> Vec<PartNumbers> {
     let of_oil = oil.numbers_of_oil().into_iter().chain(oil.numbers());
     vec![
         ("Contact", Contact::default().numbers().into()),
+        ("SqueezeFilm", SqueezeFilm::default().numbers().into()),
         ("Iso16281", NormalLaw::iso16281().numbers().1),
         ("FixedSlices", vec![Slices::Fixed(1).numbers()]),
         ("FittedSlices", vec![Slices::Fitted(1).numbers()]),

@@ -37,7 +37,7 @@ pub struct DynamicCoefficients {
 /// balls follow: along their radius and the axis as their contacts let them, along the orbit and in their rotation so that friction on
 /// them does not change. K differs from [`super::stiffness()`] by what velocities add while the balls go round, and is not quite
 /// symmetric: friction follows the loads of the contacts, and dampers turn with the cage, which alone makes K_xy = ω_c C_xx of a bearing
-/// under thrust. Supports, a structure below them, the cage's links, drag of oil on balls and defects are no part of it. The mean over positions of the cage
+/// under thrust. Supports, a structure below them, the cage's links, drag of oil on balls, squeeze films and defects are no part of it. The mean over positions of the cage
 /// stands for what varies as balls pass.
 ///
 /// ```

@@ -23,6 +23,7 @@ mod pits;
 mod profiles;
 mod records;
 mod ring_force;
+mod squeeze;
 mod start;
 mod structure;
 mod texture;

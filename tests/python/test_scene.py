@@ -204,7 +204,12 @@ def scenes() -> list[s.Scene]:
             }
         ),
         full.replace(
-            {"friction": "none", "contact": s.Contact(law="hertz", slices=s.FittedSlices(6))}
+            {
+                "friction": "none",
+                "contact": s.Contact(
+                    law="hertz", slices=s.FittedSlices(6), squeeze=s.SqueezeFilm()
+                ),
+            }
         ),
         full.replace(
             {"drive": s.SpeedDrive(s.Sine(mean=9.0, amplitude=1.0, frequency=2.0, phase=0.0))}

@@ -14,7 +14,16 @@ from __future__ import annotations
 from .._base.later import listed
 from .bearing import GothicArch, RaceProfile, Ring, RingName, Row, Waviness
 from .cage import Cage, CageGuidance, CageRing
-from .contact import AccurateSlices, Contact, FittedSlices, FixedSlices, Iso16281, NormalLaw, Slices
+from .contact import (
+    AccurateSlices,
+    Contact,
+    FittedSlices,
+    FixedSlices,
+    Iso16281,
+    NormalLaw,
+    Slices,
+    SqueezeFilm,
+)
 from .defect import (
     AxialOffset,
     Cap,
@@ -121,6 +130,7 @@ __all__ = [
     "Spin",
     "Spline",
     "Spring",
+    "SqueezeFilm",
     "SteepPatch",
     "Stribeck",
     "Structure",

@@ -15,6 +15,7 @@ __all__ = [
     "Iso16281",
     "NormalLaw",
     "Slices",
+    "SqueezeFilm",
 ]
 
 
@@ -87,6 +88,29 @@ Slices = FixedSlices | FittedSlices | AccurateSlices
 
 
 @dataclass(frozen=True, kw_only=True)
+class SqueezeFilm(Part):
+    """Squeeze film of grease or oil between ball and race: a force against the speed v at which a gap g closes.
+
+    ``damping * v / (1 + |g| / thickness)``, and of a film that is pulled apart at most ``pull``. It takes the
+    rattle from balls that no load presses, and next to nothing from those that carry. The defaults are a 6205's
+    in starved grease, fitted to the decay of measured impacts; flooded it has some hundred N s/m.
+
+    Attributes
+    ----------
+    damping : float
+        Damping where ball and race just touch [N s/m].
+    thickness : float
+        Thickness of the film [m].
+    pull : float
+        Largest force by which the film holds ball and race together [N].
+    """
+
+    damping: float = 15.0
+    thickness: float = 0.3e-6
+    pull: float = 0.02
+
+
+@dataclass(frozen=True, kw_only=True)
 class Contact(Part):
     """Contact of a ball and a race: elastic law, slices, damping.
 
@@ -100,9 +124,12 @@ class Contact(Part):
         Hunt-Crossley damping [s/m]: restitution is about ``1 - damping * v`` at an impact speed v.
     clamp_pull : bool
         Whether a slice that would pull is set to zero (and counted); False keeps the paper's bare sum.
+    squeeze : SqueezeFilm, optional
+        Film of grease or oil that damps the approach of ball and race where they do not press.
     """
 
     law: NormalLaw = "hertz"
     slices: Slices = FittedSlices(6)
     damping: float = 0.2
     clamp_pull: bool = True
+    squeeze: SqueezeFilm | None = None

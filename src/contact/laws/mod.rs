@@ -7,6 +7,7 @@ pub mod cut;
 pub mod damping;
 pub mod elastic;
 pub mod film;
+pub mod squeeze;
 #[doc(hidden)]
 pub mod traction;
 
@@ -14,6 +15,8 @@ pub use cut::Cut;
 #[doc(hidden)]
 pub use damping::Damping;
 pub use elastic::Elastic;
+#[doc(hidden)]
+pub use squeeze::Squeeze;
 #[doc(hidden)]
 pub use traction::Traction;
 

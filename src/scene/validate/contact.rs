@@ -29,6 +29,9 @@ pub(super) fn contact(path: &str, contact: &Contact) -> Result<()> {
     let (law, of_law) = contact.law.numbers();
     numbers(&format!("{path}.law.{law}"), of_law)?;
     numbers(&format!("{path}.slices"), [contact.slices.numbers()])?;
+    if let Some(film) = &contact.squeeze {
+        numbers(&format!("{path}.squeeze"), film.numbers())?;
+    }
     numbers(path, contact.numbers())
 }
 
