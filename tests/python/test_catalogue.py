@@ -349,7 +349,8 @@ def test_the_rating_is_that_of_the_model() -> None:
 def test_its_bare_ring_is_built_as_the_preset() -> None:
     made = br.bearing("6205", radial_load=500.0, housing=None, speed_rpm=1800.0)
     preset = br.presets.deep_groove_6205()
-    assert (made.friction, made.contact) == (preset.friction, preset.contact)
+    assert made.friction == preset.friction
+    assert replace(made.contact, squeeze=None) == preset.contact
     for ring in ("outer_ring", "inner_ring"):
         ours, theirs = getattr(made, ring), getattr(preset, ring)
         assert (ours.diameter, ours.width, ours.mass) == pytest.approx(

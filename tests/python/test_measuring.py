@@ -79,14 +79,15 @@ def test_a_mode_answers_a_knock_as_its_equation_of_motion() -> None:
 
 
 def test_a_path_with_the_modes_of_the_scene_is_its_sensor() -> None:
-    """Truth: the sensor of the run, whose own force on the seat drives the path; the coupling of the default."""
+    """Truth: the sensor of the run, whose own force on the seat drives the path; the coupling with 6 % of damping."""
     spall = br.defects.spall(on="outer_race", width_mm=2.0)
     kappa = {}
     for load in (49.0, 500.0):
         scene = br.bearing("6205", radial_load=load, speed_rpm=900.0, defects=spall)
         assert scene.structure is not None
         foot = replace(scene.structure, modes=scene.structure.modes[2:3])
-        kappa[load] = coupling(scene.replace({"defects": {}}), foot)
+        damped = replace(foot, modes=(replace(foot.modes[0], damping=0.06),))
+        kappa[load] = coupling(scene.replace({"defects": {}}), damped)
     assert kappa == pytest.approx({49.0: 2.5, 500.0: 9.8}, rel=0.01)
     out = br.simulate(scene, duration=0.1)
     with pytest.warns(br.AccuracyWarning, match=r"κ = .*, above 0\.3"):

@@ -110,6 +110,7 @@ def every_field() -> s.Scene:
             slices=s.FixedSlices(50),
             damping=0.1,
             clamp_pull=False,
+            squeeze=s.SqueezeFilm(damping=20.0, thickness=2e-7, pull=0.03),
         ),
         friction=s.Traction(a=0.01, b=0.02, c=0.5, d=0.03, slip_speed=0.05),
         cage=s.Cage(stiffness=1e6, damping=20.0, play=1e-4),
@@ -545,7 +546,7 @@ def test_defaults_are_those_of_the_core() -> None:
         "drive": {"torque": {"value": 1.0}},
         "outer_ring": {"mass": 1.0, "support": {"x": {"spring": {}}}},
         "inner_ring": {"mass": 1.0},
-        "contact": {"law": {"iso16281": {}}},
+        "contact": {"law": {"iso16281": {}}, "squeeze": {}},
         "cage": {"stiffness": 1.0},
         # A document that does not say it means the tolerance of before there was a band.
         "solver": {"rtol": "band"},
@@ -563,7 +564,7 @@ def test_defaults_are_those_of_the_core() -> None:
         drive=s.TorqueDrive(value=1.0),
         outer_ring=s.Ring(mass=1.0, support=s.Support(x=s.Spring())),
         inner_ring=s.Ring(mass=1.0),
-        contact=s.Contact(law=s.Iso16281()),
+        contact=s.Contact(law=s.Iso16281(), squeeze=s.SqueezeFilm()),
         cage=s.Cage(stiffness=1.0),
         unbalances={"a": s.Unbalance(ring="inner", moment=1e-3)},
         defects={

@@ -130,3 +130,31 @@ def test_explanation_and_campaign_know_it(tmp_path: Path) -> None:
     )
     light, heavy = done.manifest["housing.top.ay.rms"].to_list()
     assert 0.0 < heavy < light
+
+
+def test_grease_holds_balls_without_load() -> None:
+    """Truth: the same bearing dry, whose unloaded balls strike their races again and again.
+
+    On impacts of a spall, which loaded balls make, the film has little to say.
+    """
+
+    def shaken(width: float | None, **changes: Any) -> float:
+        spall = None if width is None else br.defects.spall(on="outer_race", width_mm=width)
+        scene = br.bearing(
+            "6205", radial_load=500.0, speed_rpm=1797.0, housing=None, defects=spall
+        ).replace(changes)
+        return float(np.std(br.simulate(scene, duration=0.15)["outer.ay"][2500:]))
+
+    dry = {"contact.squeeze": None}
+    assert shaken(None) < 0.6 * shaken(None, **dry)
+    assert shaken(1.0) > 0.7 * shaken(1.0, **dry)
+
+
+def test_films_grow_with_the_balls() -> None:
+    """Truth: the rule. Damping goes with the area of the balls; a 6205 has the defaults."""
+    films = [br.bearing(name, speed_rpm=1000.0).contact.squeeze for name in ("6205", "6310")]
+    small, large = (film for film in films if film is not None)
+    assert small == s.SqueezeFilm()
+    grown = br.catalogue["6310"].ball_diameter / br.catalogue["6205"].ball_diameter
+    assert large.damping == pytest.approx(grown**2 * small.damping, rel=1e-12)
+    assert large.thickness == small.thickness

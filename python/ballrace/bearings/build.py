@@ -80,11 +80,11 @@ def bearing(
 ) -> Scene:
     """Return a scene of a bearing of the catalogue, ready to run.
 
-    The scene has Hertz's law, Coulomb friction, a steel cage with pockets, balls that spin about any
-    axis where that changes orbit speed or a load at rest by more than 0.2 % (else about the bearing's), the inner
-    ring on a shaft (1 kg in a 6205, damped, held by the balls only), the outer ring on a stiff spring on the seat
-    of a pedestal that vibrates, and probes of the motion of both rings, of the pedestal's sensor
-    (``housing.sensor.ay``) and of the force on its seat. All of this can be changed by
+    The scene has Hertz's law, Coulomb friction, a squeeze film of grease, a steel cage with pockets, balls that
+    spin about any axis where that changes orbit speed or a load at rest by more than 0.2 % (else about the
+    bearing's), the inner ring on a shaft (1 kg in a 6205, damped, held by the balls only), the outer ring on a
+    stiff spring on the seat of a pedestal that vibrates, and probes of the motion of both rings, of the pedestal's
+    sensor (``housing.sensor.ay``) and of the force on its seat. All of this can be changed by
     :meth:`ballrace.Scene.replace`.
 
     Parameters

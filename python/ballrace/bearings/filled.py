@@ -12,6 +12,7 @@ from .._base.numbers import finite
 from ..errors import EquilibriumError, SceneError
 from ..scene import (
     CageRing,
+    Contact,
     Coulomb,
     Defect,
     Load,
@@ -23,6 +24,7 @@ from ..scene import (
     Scene,
     SeatProbe,
     SpeedDrive,
+    SqueezeFilm,
     SteepPatch,
     StructureProbe,
 )
@@ -35,6 +37,9 @@ if TYPE_CHECKING:
 __all__ = ["filled", "named", "with_spin"]
 
 T = TypeVar("T")
+
+_OF_6205 = 7.94e-3
+"""Ball diameter of the bearing that a squeeze film is by default for [m]."""
 
 _LOADS = (
     'loads on a ring by their names, such as {"belt": br.machines.belt(900.0, at=-0.08)} or '
@@ -85,6 +90,7 @@ def filled(
         inner_ring=inner_ring,
         structure=structure,
         friction=Coulomb(coefficient=0.05, slip_speed=0.1),
+        contact=Contact(squeeze=_grease(rows)),
         lubricant=chosen(lubricant, temperature_c),
         cage=CageRing(),
         loads=named("loads", loads, Load, _LOADS),
@@ -95,6 +101,13 @@ def filled(
         probes=_probes(structure),
     )
     return with_spin(scene.validate())
+
+
+def _grease(rows: tuple[Row, ...]) -> SqueezeFilm:
+    """Return the squeeze film of starved grease, whose damping goes with the area of the balls."""
+    size = sum(row.ball_diameter for row in rows) / len(rows) / _OF_6205
+    film = SqueezeFilm()
+    return replace(film, damping=film.damping * size**2, pull=film.pull * size)
 
 
 def _probes(structure: Structure | None) -> dict[str, Probe]:

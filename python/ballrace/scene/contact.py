@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import ClassVar, Literal
 
-from .._base.document import Part, Variant
+from .._base.document import LEFT_OUT, Part, Variant
 
 __all__ = [
     "AccurateSlices",
@@ -132,4 +132,4 @@ class Contact(Part):
     slices: Slices = FittedSlices(6)
     damping: float = 0.2
     clamp_pull: bool = True
-    squeeze: SqueezeFilm | None = None
+    squeeze: SqueezeFilm | None = field(default=None, metadata=LEFT_OUT)
