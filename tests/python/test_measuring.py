@@ -79,7 +79,7 @@ def test_a_mode_answers_a_knock_as_its_equation_of_motion() -> None:
 
 
 def test_a_path_with_the_modes_of_the_scene_is_its_sensor() -> None:
-    """Truth: the sensor of the run, whose own force on the seat drives the path; the coupling with 6 % of damping."""
+    """Truth: the sensor of the run, whose force on the seat drives the path; the coupling at 6 % of damping."""
     spall = br.defects.spall(on="outer_race", width_mm=2.0)
     kappa = {}
     for load in (49.0, 500.0):

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..errors import CampaignWarning, SceneError
 from ..scene import MotionProbe
-from .rows import AXES, axis_of, row_of
+from .rows import AXES, row_of, sensor_row
 from .writing import new_folder, write
 
 if TYPE_CHECKING:
@@ -82,13 +82,10 @@ def _of_sensors(
     for line in done.measurements(chains, seed=seed, per_case=per_case):
         if line.case_id not in cases:
             continue
-        found, case = line.measurement, cases[line.case_id]
-        own = {
-            "recording_id": f"{line.case_id}_{line.chain}", "channel": "sensor", "fs": found.fs,
-            "axis": axis_of(found.chain.direction), "quantity": "acceleration", "unit": found.unit,
-            "sensor_mounting": "outer_ring" if line.scene.structure is None else "pedestal",
-        }  # fmt: skip
-        yield own | row_of(line.scene, case, found.start + 0.5 * found.x.size / found.fs), found.x
+        yield (
+            sensor_row(line, cases[line.case_id], f"{line.case_id}_{line.chain}"),
+            line.measurement.x,
+        )
 
 
 def _of_rings(done: Campaign, cases: dict[str, dict[str, Any]], scenes: dict[str, Scene]) -> Rows:

@@ -18,9 +18,10 @@ from ..scene.turning import relative_speed
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from ..campaigns.measured import Measured
     from ..scene import Scene
 
-__all__ = ["AXES", "axis_of", "row_of"]
+__all__ = ["AXES", "axis_of", "row_of", "sensor_row"]
 
 _FAULTS = {"outer_race": "outer", "inner_race": "inner", "ball": "rolling_element"}
 """Name in the layout by the surface of a defect."""
@@ -43,6 +44,17 @@ def row_of(scene: Scene, case: Mapping[str, Any], middle: float) -> dict[str, An
         "bearing_model": scene.name or "unknown",
         **_orders(scene),
     }
+
+
+def sensor_row(line: Measured, case: Mapping[str, Any], recording_id: str) -> dict[str, Any]:
+    """Return the columns of what a chain measured of a case, by its row of the manifest."""
+    found = line.measurement
+    own = {
+        "recording_id": recording_id, "channel": "sensor", "fs": found.fs,
+        "axis": axis_of(found.chain.direction), "quantity": "acceleration", "unit": found.unit,
+        "sensor_mounting": "outer_ring" if line.scene.structure is None else "pedestal",
+    }  # fmt: skip
+    return own | row_of(line.scene, case, found.start + 0.5 * found.x.size / found.fs)
 
 
 def axis_of(direction: tuple[float, float, float] | None) -> str:

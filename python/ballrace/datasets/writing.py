@@ -19,11 +19,11 @@ from .layout import COLUMNS, SCHEMA_VERSION
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Collection, Iterable, Mapping
 
     from numpy.typing import NDArray
 
-__all__ = ["new_folder", "write"]
+__all__ = ["as_page", "card_of", "digest_of", "new_folder", "write", "write_block", "write_table"]
 
 _BLOCK = 8 << 20
 """Samples of a file, about [bytes]: what is read for one of its signals."""
@@ -59,44 +59,49 @@ def write(
     """
     with TemporaryDirectory(prefix=f".{path.name}.", dir=path.parent) as folder:
         made = Path(folder) / path.name
-        rows, digest = _write_signals(made / "signals", path.name, signals)
+        rows, digests = _write_signals(made / "signals", path.name, signals)
         if not rows:
             raise SceneError("path", str(path), "a campaign that kept labelled signals")
-        _write_table(made, rows)
-        manifest = _card(path.name, rows, digest) | dict(card)
+        write_table(made, rows)
+        manifest = card_of(path.name, rows, digests) | dict(card)
         (made / "manifest.json").write_text(json.dumps(manifest, indent=1), encoding="utf-8")
-        (made / "README.md").write_text(_page(manifest), encoding="utf-8")
+        (made / "README.md").write_text(as_page(manifest), encoding="utf-8")
         made.rename(path)
 
 
 def _write_signals(
     folder: Path, dataset: str, signals: Iterable[tuple[dict[str, Any], NDArray[np.float64]]]
-) -> tuple[list[dict[str, Any]], str]:
-    """Write the samples as 32-bit floats; return the rows with their places, and a hash of all samples."""
+) -> tuple[list[dict[str, Any]], dict[str, str]]:
+    """Write the samples as 32-bit floats; return the rows with their places, and hashes of the samples."""
     folder.mkdir(parents=True)
     rows: list[dict[str, Any]] = []
     block: list[tuple[str, NDArray[np.float32]]] = []
     digests, files = {}, 0
     for row, x in signals:
         samples, name = x.astype(np.float32), f"{row['recording_id']}/{row['channel']}"
-        digests[name] = hashlib.sha256(b"float32" + samples.tobytes()).hexdigest()
+        digests[name] = digest_of(samples)
         place = {"signal_file": _file(files), "signal_row_group": 0, "signal_row": len(block)}
         rows.append({"dataset": dataset, "signal_id": name, "n_samples": x.size} | row | place)
         block.append((name, samples))
         if sum(part.nbytes for _, part in block) >= _BLOCK:
-            _write_block(folder / _file(files), block)
+            write_block(folder / _file(files), block)
             block, files = [], files + 1
     if block:
-        _write_block(folder / _file(files), block)
-    listing = "".join(f"{name}:{digests[name]}\n" for name in sorted(digests))
-    return rows, hashlib.sha256(listing.encode()).hexdigest()
+        write_block(folder / _file(files), block)
+    return rows, digests
+
+
+def digest_of(samples: NDArray[np.float32]) -> str:
+    """Return the hash of the samples of a signal."""
+    return hashlib.sha256(b"float32" + samples.tobytes()).hexdigest()
 
 
 def _file(number: int) -> str:
     return f"part-float32-{number:05}.parquet"
 
 
-def _write_block(path: Path, block: list[tuple[str, NDArray[np.float32]]]) -> None:
+def write_block(path: Path, block: list[tuple[str, NDArray[np.float32]]]) -> None:
+    """Write signals with their names into a file."""
     from .._base.polars import pl
 
     names, parts = zip(*block, strict=True)
@@ -106,7 +111,10 @@ def _write_block(path: Path, block: list[tuple[str, NDArray[np.float32]]]) -> No
         interrupted_once(lambda: table.write_parquet(path, row_group_size=table.height))
 
 
-def _write_table(folder: Path, rows: list[dict[str, Any]]) -> None:
+def write_table(
+    folder: Path, rows: list[dict[str, Any]], columns: Collection[str] = tuple(COLUMNS)
+) -> None:
+    """Write the table of signals with these columns in their order, as far as every row has them."""
     from .._base.polars import pl
 
     size = pl.col("fault_size_mm")
@@ -115,27 +123,31 @@ def _write_table(folder: Path, rows: list[dict[str, Any]]) -> None:
     # A column holds something in every row, or is not there.
     table = table.select(each for each in table if not each.null_count())
     table = table.with_columns(level.cast(pl.Int64).alias("fault_severity_level"))
-    table = table.select(name for name in COLUMNS if name in table.columns)
+    table = table.select(name for name in columns if name in table.columns)
     path = folder / "metadata.parquet"
     with writing_to(path):
         interrupted_once(lambda: table.write_parquet(path))
 
 
-def _card(dataset: str, rows: list[dict[str, Any]], digest: str) -> dict[str, Any]:
+def card_of(
+    dataset: str, rows: list[dict[str, Any]], digests: Mapping[str, str], columns: Mapping[str, str] = COLUMNS
+) -> dict[str, Any]:  # fmt: skip
+    """Return the card: counts, what columns mean, and a hash of all signals by those of each."""
+    listing = "".join(f"{name}:{digests[name]}\n" for name in sorted(digests))
     there = {name for row in rows for name in row} | {"fault_severity_level"}
     return {
         "dataset": dataset,
         "schema_version": SCHEMA_VERSION,
         "built_at": datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%S"),
-        "content_hash": digest,
+        "content_hash": hashlib.sha256(listing.encode()).hexdigest(),
         "n_recordings": len({row["recording_id"] for row in rows}),
         "n_signals": len(rows),
-        "columns": {name: meaning for name, meaning in COLUMNS.items() if name in there},
+        "columns": {name: meaning for name, meaning in columns.items() if name in there},
         "raw_files": [],
     }
 
 
-def _page(card: Mapping[str, Any]) -> str:
+def as_page(card: Mapping[str, Any]) -> str:
     """Return the card as a page."""
     lines = [
         f"# {card['dataset']}: {card['title']}",

@@ -11,9 +11,15 @@ import numpy as np
 
 from .. import defects
 from ..bearings import bearing
-from ..errors import SceneError
 from ..scene import SeatProbe, StructureProbe, Texture
-from ..statics import equilibrium
+from .drawn import (
+    fault_fields,
+    is_small,
+    log_uniform,
+    slip_fields,
+    structure_fields,
+    texture_fields,
+)
 from .recipe import SURFACES, Recipe, ends_of
 
 if TYPE_CHECKING:
@@ -23,41 +29,6 @@ __all__ = ["LABELS", "Drawing"]
 
 LABELS = ("bearing_id", "part", "shape", "size_mm")
 """Columns of the table that are no fields of a scene; ``shape`` is ``none``, ``pit`` or ``spall``."""
-
-_SLIP_BY_BALLS = 1.4e4
-"""Scatter of the times between impacts over that of the balls' diameters [1/m].
-
-Measured of a 6205 under 300 N and 80 N of thrust, three bearings each: 0.06 to 0.10, 0.36 to 0.48 and 0.76 to
-0.98 % at 0.2 µm and 0.1, 0.2 and 0.33 mm of play (both sides of a pocket), 0.22 to 0.32, 0.65 to 0.76 and 1.07 to
-1.26 % at 0.5 µm.
-"""
-_PLAY = (0.08e-3, 0.2e-3)
-"""Play of a ball in its pocket of a 6205 [m], up to the slip below, with which it grows; others by the ball
-diameter."""
-_PLAIN_SLIP = 6e-3
-_BALL_OF_6205 = 7.94e-3
-
-_AMPLITUDE = (0.2e-9, 5e-9)
-"""Texture of races at order 30 [m], and its slope: from quiet to poor bearings of this size (ISO 15242-2)."""
-_SLOPE = (1.5, 2.5)
-_OVAL = 0.6e-6
-"""Largest wave of order 2 [m]: finished races are rounder."""
-_BALL_TEXTURE = (0.3, 3.0)
-"""Amplitude of balls over that which is as good as the races wavelength by wavelength."""
-
-_EDGE = (0.01, 0.25)
-"""Radius of a spall's edges in ball diameters: engraved ones, to what steep walls amount to in a contact."""
-_LENGTH = 0.6
-"""Longest spall across rolling in ball diameters: wider than any contact."""
-_AROUND = 0.7
-"""How far from the middle of the load zone a fault of the outer race may lie [rad]."""
-
-_MASS = (0.5, 4.0)
-"""Masses of the machine over those of a pedestal."""
-_FREQUENCY, _APART = (0.6, 1.6), (0.8, 1.25)
-"""Natural frequencies over those of a pedestal, all together and each by itself."""
-_DAMPING = (0.01, 0.1)
-"""Damping ratio of a mode."""
 
 
 @dataclass(frozen=True)
@@ -96,60 +67,43 @@ class Drawing:
 
         The bearing of a number is the same for all kinds; its load, its speed and its fault are not.
         """
+        return self.rows(kind, number, 1)[0]
+
+    def rows(self, kind: str | None, number: int, count: int) -> list[dict[str, Any]]:
+        """Return rows of a bearing with one fault under several loads and speeds, the first as of `row`."""
         place = 0 if kind is None else 1 + list(SURFACES).index(kind)
         rng = np.random.default_rng([self.seed, 1, place, number])
         part = "healthy" if kind is None else SURFACES[kind]
-        own = self._bearing(number) | self._operation(rng)
+        first = self._operation(rng)
+        later = np.random.default_rng([self.seed, 2, place, number])
+        own = self._bearing(number)
+        each = [own | first, *(own | self._operation(later) for _ in range(count - 1))]
         if kind == "ball" and self.recipe.surfaces == "as_made":
             # Its texture is around one axis, about which such a ball does not turn.
-            own["rows[0].texture.ball"] = 0.0
+            for row in each:
+                row["rows[0].texture.ball"] = 0.0
         size, scene, shape = 0.0, "healthy", "none"
         fault: dict[str, Any] = {}
         if kind is not None:
-            size = _log(rng, self.recipe.faults[kind])
-            shape, fault = self._fault(SURFACES[kind], 1e-3 * size, own, rng)
+            size = log_uniform(rng, self.recipe.faults[kind])
+            shape, fault = self._fault(SURFACES[kind], 1e-3 * size, each, rng)
             scene = f"{part}.{shape}"
         labels = dict(zip(LABELS, (number, part, shape, size), strict=True))
-        return labels | {"scene": scene} | own | fault
+        return [labels | {"scene": scene} | row | fault for row in each]
 
     def _bearing(self, number: int) -> dict[str, Any]:
         """Return what a bearing has of its own, and what it sits in."""
         recipe, rng = self.recipe, np.random.default_rng([self.seed, 0, number])
         own: dict[str, Any] = {"rows[0].start_angle": float(rng.uniform(0.0, 2.0 * math.pi))}
-        own |= self._structure(rng)
+        structure = self.scenes["healthy"].structure
+        assert structure is not None
+        own |= structure_fields(structure, rng)
         if recipe.clearances is not None:
             own["rows[0].clearance"] = float(rng.uniform(*recipe.clearances))
         if recipe.slip is not None:
-            slip = _log(rng, ends_of(recipe.slip))
-            unlike = slip / _SLIP_BY_BALLS * rng.standard_normal(recipe.made.ball_count)
-            scale = recipe.made.ball_diameter / _BALL_OF_6205 * max(1.0, slip / _PLAIN_SLIP)
-            own["rows[0].diameter_errors"] = unlike.tolist()
-            own["cage.ring.pocket_clearance"] = 0.5 * scale * float(rng.uniform(*_PLAY))
-        return own | (self._texture(rng) if recipe.surfaces == "as_made" else {})
-
-    def _structure(self, rng: np.random.Generator) -> dict[str, Any]:
-        """Return the machine that it stands on: a pedestal with other masses, frequencies and dampings."""
-        structure = self.scenes["healthy"].structure
-        assert structure is not None
-        mass, frequency = _log(rng, _MASS), _log(rng, _FREQUENCY)
-        drawn: dict[str, Any] = {}
-        for k, mode in enumerate(structure.modes):
-            own = {
-                "frequency": mode.frequency * frequency * _log(rng, _APART),
-                "damping": _log(rng, _DAMPING),
-                "mass": mode.mass * mass,
-            }
-            drawn |= {f"structure.modes[{k}].{name}": value for name, value in own.items()}
-        return drawn
-
-    def _texture(self, rng: np.random.Generator) -> dict[str, Any]:
-        made, slope = self.recipe.made, float(rng.uniform(*_SLOPE))
-        ends = (_AMPLITUDE[0], min(_AMPLITUDE[1], _OVAL / 15.0**slope))
-        outer, inner = _log(rng, ends), _log(rng, ends)
-        as_good = math.sqrt(outer * inner) * (made.ball_diameter / made.pitch_diameter) ** slope
-        drawn = {"outer": outer, "inner": inner, "ball": as_good * _log(rng, _BALL_TEXTURE)}
-        drawn |= {"slope": slope, "seed": int(rng.integers(2**53))}
-        return {f"rows[0].texture.{name}": value for name, value in drawn.items()}
+            slip = log_uniform(rng, ends_of(recipe.slip))
+            own |= slip_fields(recipe.made, slip, rng)
+        return own | (texture_fields(recipe.made, rng) if recipe.surfaces == "as_made" else {})
 
     def _operation(self, rng: np.random.Generator) -> dict[str, Any]:
         """Return speed and loads of a case."""
@@ -160,18 +114,12 @@ class Drawing:
         }
 
     def _fault(
-        self, on: Surface, size: float, own: dict[str, Any], rng: np.random.Generator
+        self, on: Surface, size: float, rows: list[dict[str, Any]], rng: np.random.Generator
     ) -> tuple[str, dict[str, Any]]:
-        """Return the shape of a fault of a size [m] and its fields: a pit if smaller than its contact."""
-        around = _AROUND if on == "outer_race" else math.pi
-        ball = self.recipe.made.ball_diameter
-        edge = _log(rng, (_EDGE[0] * ball, _EDGE[1] * ball))
-        length = _log(rng, (size, max(size, _LENGTH * ball)))
-        fault = {"width": size, "angle": -0.5 * math.pi + float(rng.uniform(-around, around))}
-        pit, spall = _named(fault), _named(fault | {"edge_radius": edge})
-        if on != "ball":
-            spall |= _named({"length": length})
-        is_pit = _is_small(self.scenes[f"{on}.pit"].replace(own | pit))
+        """Return the shape of a fault of a size [m] and its fields: a pit if always smaller than its contact."""
+        pit, spall = map(_named, fault_fields(on, size, self.recipe.made.ball_diameter, rng))
+        scene = self.scenes[f"{on}.pit"]
+        is_pit = all(is_small(scene.replace(row | pit), "fault") for row in rows)
         return ("pit", pit) if is_pit else ("spall", spall)
 
 
@@ -184,19 +132,3 @@ def _shapes(on: Surface, ball: float) -> dict[str, Defect]:
 
 def _named(fault: dict[str, float]) -> dict[str, Any]:
     return {f"defects.fault.{name}": value for name, value in fault.items()}
-
-
-def _is_small(scene: Scene) -> bool:
-    """Whether a pit is smaller than its contact, which a scene with one that is not refuses."""
-    try:
-        equilibrium(scene)
-    except SceneError as error:
-        if error.path == "defects.fault.width":
-            return False
-        raise
-    return True
-
-
-def _log(rng: np.random.Generator, ends: tuple[float, float]) -> float:
-    """Draw a number whose logarithm is even."""
-    return math.exp(rng.uniform(math.log(ends[0]), math.log(ends[1])))

@@ -34,9 +34,9 @@ if TYPE_CHECKING:
 
 __all__ = ["Simulated", "dataset"]
 
-_SKIP = 0.03
+SKIP = 0.03
 """Beginning of a measurement in which path and sensor ring up [s]: five times 1/(2 ζ f) of 800 Hz at 1 %."""
-_OVERSAMPLED = 2
+OVERSAMPLED = 2
 """Rate of the runs over that of the records, which leaves room for modes and sensor."""
 _ROUNDS = 4
 """How often more cases are drawn for a class whose faults are not met often enough."""
@@ -101,7 +101,7 @@ class Simulated:
             round(self.window * self.fs),
             seed=self.seed,
             per_case=self.per_case,
-            skip=_SKIP,
+            skip=SKIP,
             labels=(),
         )
         shaft = pl.col("drive.speed") / (2.0 * math.pi)
@@ -225,7 +225,7 @@ def dataset(
     count, seed = counted("per_class", per_class, 1), counted("seed", seed, 0)
     drawing = Drawing(recipe, seed)
     making = _Making(drawing=drawing, folder=folder, count=count, options={
-        "duration": window + _SKIP, "fs": _OVERSAMPLED * fs, "keep": "signals", "columns": ["housing.sensor.ay"],
+        "duration": window + SKIP, "fs": OVERSAMPLED * fs, "keep": "signals", "columns": ["housing.sensor.ay"],
         "threads": threads,
     })  # fmt: skip
     if progress is True:
