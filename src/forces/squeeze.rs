@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use super::{Account, Damper, Force, ForceSums, Instant, RingWrench, State, Table, Use};
 use crate::contact::{Motion, Pair, Raise, Section, Squeeze, TiltedRing, cross};
 use crate::model::{BodyId, Dof, Model, Race, RowModel, SqueezeModel};
-use crate::simd::{Number, Simd, Vector, Wide};
+use crate::simd::{LANES, Lanes, Mask, Number, Simd, Task, Vector, Wide};
 
 /// Squeeze films of all rows.
 #[derive(Debug)]
@@ -34,20 +34,29 @@ impl Force for SqueezeFilms {
             let Some(squeeze) = &row.squeeze else {
                 continue;
             };
-            if at.rings.is_some() || row.pairs.iter().any(|pair| !pair.waves.is_round()) {
-                add_one_by_one(model, row, &squeeze.film, at, sums);
-                continue;
-            }
-            let on_rings = model.instructions.run_wide(RowFilms {
+            let films = RowFilms {
                 squeeze,
                 row,
                 state: at.state,
+                rings: at.rings,
                 forces: sums.on,
-            });
+            };
+            let is_plain = at.rings.is_none() && row.pairs.iter().all(|pair| pair.waves.is_round());
+            let on_rings = if is_plain {
+                model.instructions.run_wide(films)
+            } else {
+                model.instructions.run(films)
+            };
             for race in Race::BOTH {
+                let [force, moment] = on_rings[race];
+                let [force, moment] = match at.rings {
+                    // Along normals through the axis, about which nothing turns.
+                    None => [force, Vector3::zeros()],
+                    Some(rings) => rings[race].about_centre(&force, &moment),
+                };
                 let wrench = RingWrench {
-                    force: Vector3::from(on_rings[race]) * at.times,
-                    moment: Vector3::zeros(),
+                    force: force * at.times,
+                    moment: moment * at.times,
                 };
                 sums.add(race, &wrench);
             }
@@ -148,75 +157,118 @@ fn before(film: &Squeeze, pair: &Pair, radius: f64, ball: &Motion, ring: &Motion
     Squeezed::new::<false>(film, pair, radius, motion, waves)
 }
 
-/// Adds the films of a row on rings that tilt, or have waves.
-fn add_one_by_one(
-    model: &Model,
-    row: &RowModel,
-    film: &Squeeze,
-    at: &Instant<'_>,
-    sums: &mut ForceSums<'_>,
-) {
-    for ball in row.balls() {
-        let body = BodyId::ball(ball);
-        let radius = model.balls[ball].side.radius;
-        let motion = at.state.motion(body);
-        for race in Race::BOTH {
-            let tilted: Option<&TiltedRing> = at.rings.map(|rings| rings[race]);
-            let [seen, ring] = match tilted {
-                Some(ring) => ring.facing(&motion),
-                None => [motion, at.state.motion(race.ring())],
-            };
-            let own = before(film, &row.pairs[race], radius, &seen, &ring).on_ring();
-            let mut wrench = RingWrench {
-                force: Vector3::from(own),
-                moment: Vector3::zeros(),
-            };
-            if let Some(ring) = tilted {
-                wrench.force = ring.rotation.frame.to_scene(&wrench.force);
-                wrench.moment = ring.arm(&motion).cross(&wrench.force) * at.times;
-            }
-            for (dof, force) in Dof::TRANSLATIONS.into_iter().zip(wrench.force.iter()) {
-                *sums.on.get_mut(body, dof) -= force;
-            }
-            wrench.force *= at.times;
-            sums.add(race, &wrench);
-        }
-    }
-}
-
-/// Films of a row on smooth rings that stay parallel.
+/// Films of a row: in registers where rings are smooth and parallel, else eight balls at a time.
 struct RowFilms<'a> {
     squeeze: &'a SqueezeModel,
     row: &'a RowModel,
     state: &'a State,
+    /// Rings that may tilt; none where they stay parallel.
+    rings: Option<[&'a TiltedRing; 2]>,
     forces: &'a mut Table,
 }
 
-impl Wide for RowFilms<'_> {
-    /// Forces on the rings.
-    type Output = [[f64; 3]; 2];
+impl RowFilms<'_> {
+    /// Places and velocities of eight balls as a ring sees them, and the speed at which its mark turns there.
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    fn seen<const FMA: bool>(&self, first: BodyId, race: Race) -> ([[Lanes; 3]; 2], f64) {
+        let (q, v) = (&self.state.q, &self.state.v);
+        let of = |half: &Table| Dof::TRANSLATIONS.map(|dof| half.eight(first, dof));
+        let (place, velocity) = (of(q), of(v));
+        if let Some(rings) = self.rings {
+            let [place, velocity, _] = rings[race].see::<_, FMA>(place, velocity, [Lanes::ZERO; 3]);
+            return ([place, velocity], 0.0);
+        }
+        let ring = race.ring();
+        let from = |half: &Table, own: [Lanes; 3]| {
+            let [x, y, z] = Dof::TRANSLATIONS.map(|dof| -half.get(ring, dof));
+            [own[0] + x, own[1] + y, own[2] + z]
+        };
+        ([from(q, place), from(v, velocity)], v.get(ring, Dof::Theta))
+    }
+
+    /// Raise of a race under eight balls \[m\], and how fast they meet it rise \[m/s\].
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    fn waves<const FMA: bool>(
+        &self,
+        race: Race,
+        [[x, y, _], [vx, vy, _]]: [[Lanes; 3]; 2],
+        omega: f64,
+    ) -> [Lanes; 2] {
+        let waves = &self.row.pairs[race].waves;
+        if waves.is_round() {
+            return [Lanes::ZERO; 2];
+        }
+        let Raise { height, slope } =
+            waves.under::<FMA>([x, y], self.state.q.get(race.ring(), Dof::Theta));
+        let turns = (x * vy - y * vx) / (x * x + y * y) + -omega;
+        [height, slope * turns]
+    }
+}
+
+impl Task for RowFilms<'_> {
+    /// Force on each ring and its moment about the origin, in the ring's frame.
+    type Output = [[Vector3<f64>; 2]; 2];
 
     // Compiled for the instruction set that runs it.
     #[allow(clippy::inline_always)]
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> [[f64; 3]; 2] {
-        let Self {
-            squeeze,
-            row,
-            state,
-            forces,
-        } = self;
+    fn run<const FMA: bool>(self) -> Self::Output {
+        let (film, row) = (&self.squeeze.film, self.row);
+        let mut sums = [[[Lanes::ZERO; 3]; 2]; 2];
+        for from in (0..row.count).step_by(LANES) {
+            let first = row.first_body().after(from);
+            let there = Mask::from_fn(|lane| from + lane < row.count);
+            let radius = Lanes::from_slice(&self.squeeze.radii[from..]);
+            let mut on_balls = [Lanes::ZERO; 3];
+            for race in Race::BOTH {
+                let (motion, omega) = self.seen::<FMA>(first, race);
+                let waves = self.waves::<FMA>(race, motion, omega);
+                let pair = &row.pairs[race];
+                let own = Squeezed::new::<FMA>(film, pair, radius, motion, waves).on_ring();
+                let own = own.map(|part| there.choose(part, Lanes::ZERO));
+                let ([x, y, z], [fx, fy, fz]) = (motion[0], own);
+                let moment = [y * fz - z * fy, z * fx - x * fz, x * fy - y * fx];
+                let on_ball = match self.rings {
+                    None => own,
+                    Some(rings) => rings[race].rotation.frame.all_to_scene::<_, FMA>(own),
+                };
+                for i in 0..3 {
+                    sums[race][0][i] += own[i];
+                    sums[race][1][i] += there.choose(moment[i], Lanes::ZERO);
+                    on_balls[i] = on_balls[i] - on_ball[i];
+                }
+            }
+            for (dof, force) in Dof::TRANSLATIONS.into_iter().zip(on_balls) {
+                let to = &mut self.forces.along_mut(dof)[first.index()..];
+                (Lanes::from_slice(to) + force).to_slice(to);
+            }
+        }
+        sums.map(|ring| ring.map(|of| Vector3::from(of.map(Lanes::sum))))
+    }
+}
+
+impl Wide for RowFilms<'_> {
+    /// As of [`Task`].
+    type Output = [[Vector3<f64>; 2]; 2];
+
+    // Compiled for the instruction set that runs it.
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        let (film, row) = (&self.squeeze.film, self.row);
         let zero = Vector::all(simd, 0.0);
-        let (places, speeds) = (state.q.directions(), state.v.directions());
-        let [fx, fy, fz, _] = forces.directions_mut();
+        let (places, speeds) = (self.state.q.directions(), self.state.v.directions());
+        let [fx, fy, fz, _] = self.forces.directions_mut();
         let first = row.first_body().index();
         let mut on_rings = [[zero; 3]; 2];
         // Plain loops: closures over registers are not always taken into the function that has the instructions.
-        for at in (0..row.count).step_by(Vector::<S>::LANES) {
-            let body = first + at;
-            let left = Vector::all(simd, (row.count - at) as f64 - 0.5);
+        for from in (0..row.count).step_by(Vector::<S>::LANES) {
+            let body = first + from;
+            let left = Vector::all(simd, (row.count - from) as f64 - 0.5);
             let there = Vector::count(simd).below(left);
-            let radius = Vector::load(simd, &squeeze.radii[at..]);
+            let radius = Vector::load(simd, &self.squeeze.radii[from..]);
             let mut on_balls = [zero; 3];
             for race in Race::BOTH {
                 let ring = race.ring().index();
@@ -229,8 +281,7 @@ impl Wide for RowFilms<'_> {
                 }
                 let pair = &row.pairs[race];
                 let motion = [place, velocity];
-                let own =
-                    Squeezed::new::<true>(&squeeze.film, pair, radius, motion, [zero; 2]).on_ring();
+                let own = Squeezed::new::<true>(film, pair, radius, motion, [zero; 2]).on_ring();
                 for i in 0..3 {
                     let force = there.choose(own[i], zero);
                     on_rings[race][i] += force;
@@ -242,10 +293,10 @@ impl Wide for RowFilms<'_> {
                 (Vector::load(simd, to) + force).store(to);
             }
         }
-        let mut sums = [[0.0; 3]; 2];
-        for (sums, of) in sums.iter_mut().zip(on_rings) {
-            for (sum, of) in sums.iter_mut().zip(of) {
-                *sum = of.sum();
+        let mut sums = [[Vector3::zeros(); 2]; 2];
+        for (sum, of) in sums.iter_mut().zip(on_rings) {
+            for (i, of) in of.into_iter().enumerate() {
+                sum[0][i] = of.sum();
             }
         }
         sums

@@ -63,11 +63,7 @@ impl Waves {
 
     /// Raises under eight balls at places across the ring's axis, of a ring whose mark has turned by an angle \[rad\].
     #[inline(always)]
-    pub(in crate::contact) fn under<const FMA: bool>(
-        &self,
-        [x, y]: [Lanes; 2],
-        turned: f64,
-    ) -> Raise<Lanes> {
+    pub(crate) fn under<const FMA: bool>(&self, [x, y]: [Lanes; 2], turned: f64) -> Raise<Lanes> {
         if let Some(table) = &self.table {
             return table.raises::<FMA>(direction::<FMA>(x, y) + -turned);
         }
