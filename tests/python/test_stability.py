@@ -201,6 +201,7 @@ def test_marks_of_the_map(slip_speed: float, damping: float, rtol: float, mark: 
 
 
 @pytest.mark.long
+@pytest.mark.filterwarnings("ignore:spin = axial")
 def test_nowhere_on_the_map_a_run_lies() -> None:
     """Truth: rtol 1e-10 at each place; success without a warning is within 10 %."""
     module = stability_map()
