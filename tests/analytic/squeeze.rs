@@ -6,10 +6,10 @@ use ballrace::dynamics::contributions;
 use ballrace::scene::{Drive, Method, Mount, Probe, Scene, SqueezeFilm, Waviness, presets};
 use ballrace::{BodyId, Dof, Model, Run, Start, compile, inspect, start};
 
-fn film(damping: f64, pull: f64) -> Option<SqueezeFilm> {
+fn film(damping: f64, pull: f64) -> SqueezeFilm {
     let mut film = SqueezeFilm::default();
     (film.damping, film.pull) = (damping, pull);
-    Some(film)
+    film
 }
 
 /// Truth: m dv/dx = −c/(1 + g_o/h) − c/(1 + g_i/h) has the integral m Δv = −c h ln((h + G_o)/(h + g_o)) − c h ln((h + g_i)/(h + G_i)),
@@ -18,7 +18,7 @@ fn film(damping: f64, pull: f64) -> Option<SqueezeFilm> {
 fn a_ball_between_races_loses_what_two_films_take() {
     const SPEED: f64 = 0.05;
     let mut scene = one_ball(-20e-6);
-    scene.contact.squeeze = film(30.0, 1e3);
+    scene.contact.squeeze = Some(film(30.0, 1e3));
     scene.solver.method = Method::Verner;
     let thickness = SqueezeFilm::default().thickness;
     let model = compile(&scene).unwrap();
@@ -54,7 +54,7 @@ fn a_ball_between_races_loses_what_two_films_take() {
 #[test]
 fn a_film_holds_with_less_than_its_pull() {
     let mut scene = one_ball(-20e-6);
-    scene.contact.squeeze = film(30.0, 0.02);
+    scene.contact.squeeze = Some(film(30.0, 0.02));
     let model = compile(&scene).unwrap();
     let layout = model.layout();
     let y = start(&model, &Start::Rolling).unwrap();
@@ -87,7 +87,7 @@ fn filmed() -> Scene {
     let mut scene = presets::deep_groove_6205(500.0, 200.0, 1800.0);
     scene.rows[0].diameter_errors = (0..9).map(|k| 0.7e-6 * f64::from(k % 4 - 2)).collect();
     scene.contact.damping = 0.0;
-    scene.contact.squeeze = film(30.0, 0.02);
+    scene.contact.squeeze = Some(film(30.0, 0.02));
     scene
 }
 
@@ -177,7 +177,7 @@ fn all_ways_to_evaluate_agree() {
 fn a_ball_that_follows_a_wave_squeezes_nothing() {
     const ORDER: u32 = 20;
     let mut scene = one_ball(-20e-6);
-    scene.contact.squeeze = film(30.0, 1e3);
+    scene.contact.squeeze = Some(film(30.0, 1e3));
     let amplitude = 1e-6;
     // It rises where the ball is.
     scene.rows[0].outer_waviness = vec![Waviness::new(
