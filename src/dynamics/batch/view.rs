@@ -72,7 +72,7 @@ pub(crate) struct RingView {
     race: Race,
     /// Whether balls are turned into its frame: not before a ring that stays parallel, if they spin about the axis.
     tilts: bool,
-    /// The ring as it stood at the start, where it stays parallel: of that only the frame is read.
+    /// The ring as it stands.
     pub ring: TiltedRing,
     q: Table,
     /// The rings' own are 0.
@@ -98,7 +98,7 @@ impl RingView {
 
     /// Turns all balls of a state into the frames of both rings.
     pub fn look<'a>(both: &'a mut [Self; 2], model: &Model, state: &'a State) -> [View<'a>; 2] {
-        for view in both.iter_mut().filter(|view| view.tilts) {
+        for view in &mut *both {
             view.ring = state.tilted(model, view.race);
         }
         model.instructions.run(Look { both, state });
