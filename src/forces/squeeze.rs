@@ -1,5 +1,6 @@
 //! Squeeze films between balls and races ([*Normal force*](crate::equations#normal-force)): the law is [`Squeeze`], the gap that of the
-//! smooth race with its waves, along the common normal. A spall under the ball, or the ball's own damage, does not thin it.
+//! sound race with its waves, along the common normal; of a race through points it is that of the torus like it. A spall under the ball, the
+//! ball's own damage and its texture change nothing.
 
 use nalgebra::Vector3;
 
@@ -41,7 +42,8 @@ impl Force for SqueezeFilms {
                 rings: at.rings,
                 forces: sums.on,
             };
-            let is_plain = at.rings.is_none() && row.pairs.iter().all(|pair| pair.waves.is_round());
+            let is_simple = |pair: &Pair| pair.waves.is_round() && pair.other_flank().is_none();
+            let is_plain = at.rings.is_none() && row.pairs.iter().all(is_simple);
             let on_rings = if is_plain {
                 model.instructions.run_wide(films)
             } else {
@@ -73,8 +75,10 @@ impl Force for SqueezeFilms {
                 for race in Race::BOTH {
                     let [at, ring] = model.facing(y, ball, race);
                     let radius = model.balls[ball].side.radius;
-                    let squeezed = before(film, &row.pairs[race], radius, &at, &ring);
-                    account.damping += squeezed.force * squeezed.closing;
+                    for flank in row.pairs[race].flanks() {
+                        let squeezed = before(film, flank, radius, &at, &ring);
+                        account.damping += squeezed.force * squeezed.closing;
+                    }
                 }
             }
         }
@@ -83,16 +87,26 @@ impl Force for SqueezeFilms {
 
     fn dampers(&self, model: &Model) -> Vec<Damper> {
         let of = |row: &RowModel| {
-            let body = row.first_body();
-            let film = &row.squeeze.as_ref()?.film;
             Some(Damper {
                 name: format!("row{}.contact.squeeze", model.balls[row.first].row),
-                body,
-                rate: 2.0 * film.damping / model.bodies[body].mass[Dof::X],
+                body: row.first_body(),
+                rate: rate(model, row)?,
             })
         };
         model.rows.iter().filter_map(of).collect()
     }
+}
+
+/// Rate at which films on both sides end the motion of a ball of a row that just touches \[1/s\]; none without films.
+fn rate(model: &Model, row: &RowModel) -> Option<f64> {
+    let film = &row.squeeze.as_ref()?.film;
+    Some(2.0 * film.damping / model.bodies[row.first_body()].mass[Dof::X])
+}
+
+/// The largest such rate of any row \[1/s\]; 0 without films.
+pub(crate) fn fastest(model: &Model) -> f64 {
+    let rates = model.rows.iter().filter_map(|row| rate(model, row));
+    rates.fold(0.0, f64::max)
 }
 
 /// Film between a ball and a race: force that presses them apart \[N\], speed at which the gap closes \[m/s\], and the common normal,
@@ -157,7 +171,7 @@ fn before(film: &Squeeze, pair: &Pair, radius: f64, ball: &Motion, ring: &Motion
     Squeezed::new::<false>(film, pair, radius, motion, waves)
 }
 
-/// Films of a row: in registers where rings are smooth and parallel, else eight balls at a time.
+/// Films of a row: in registers on smooth and parallel tori, else eight balls at a time.
 struct RowFilms<'a> {
     squeeze: &'a SqueezeModel,
     row: &'a RowModel,
@@ -225,9 +239,13 @@ impl Task for RowFilms<'_> {
             for race in Race::BOTH {
                 let (motion, omega) = self.seen::<FMA>(first, race);
                 let waves = self.waves::<FMA>(race, motion, omega);
-                let pair = &row.pairs[race];
-                let own = Squeezed::new::<FMA>(film, pair, radius, motion, waves).on_ring();
-                let own = own.map(|part| there.choose(part, Lanes::ZERO));
+                let mut own = [Lanes::ZERO; 3];
+                for flank in row.pairs[race].flanks() {
+                    let film = Squeezed::new::<FMA>(film, flank, radius, motion, waves);
+                    for (sum, part) in own.iter_mut().zip(film.on_ring()) {
+                        *sum += there.choose(part, Lanes::ZERO);
+                    }
+                }
                 let ([x, y, z], [fx, fy, fz]) = (motion[0], own);
                 let moment = [y * fz - z * fy, z * fx - x * fz, x * fy - y * fx];
                 let on_ball = match self.rings {
@@ -250,7 +268,7 @@ impl Task for RowFilms<'_> {
 }
 
 impl Wide for RowFilms<'_> {
-    /// As of [`Task`].
+    /// Force on each ring and no moment, as of the [`Task`].
     type Output = [[Vector3<f64>; 2]; 2];
 
     // Compiled for the instruction set that runs it.

@@ -15,7 +15,7 @@ use crate::simd::Number;
 /// | h | thickness of the film | m |
 /// | p | largest pull, by which the film holds them together | N |
 ///
-/// Source: the squeeze film of a parabolic gap, c/h = 12π η (R_x R_y)^{3/2}/((R_x + R_y) h), which is 310 to 1000 N s/m for a 6205's
+/// Source: the squeeze film of a parabolic gap, c = 12π η (R_x R_y)^{3/2}/((R_x + R_y) h), which is 310 to 1000 N s/m for a 6205's
 /// outer race that is flooded (η from 0.03 to 0.1 Pa s, h = 0.3 µm) and far less where it is starved.
 ///
 /// ```
@@ -36,12 +36,12 @@ pub struct Squeeze {
 }
 
 impl Squeeze {
-    /// Force on the surfaces, apart, at a gap \[m\] that closes at a speed \[m/s\].
+    /// Force \[N\] that presses the surfaces apart, at a gap \[m\] that closes at a speed \[m/s\].
     pub fn force(&self, gap: f64, closing: f64) -> f64 {
         self.force_of(gap, closing)
     }
 
-    /// The same of numbers of any kind.
+    /// Force on the surfaces at gaps that close at speeds, of numbers of any kind \[N\].
     #[inline(always)]
     pub(crate) fn force_of<T: Number>(&self, gap: T, closing: T) -> T {
         let thinned = gap.abs() * (1.0 / self.thickness) + 1.0;
