@@ -55,7 +55,7 @@ impl Dynamics<'_> {
         }
     }
 
-    /// Whether one row of the run stands for two.
+    /// Symmetry of the run's rows: whether one stands for two.
     pub(crate) fn is_mirrored(&self) -> bool {
         self.contacts.is_mirrored()
     }

@@ -111,7 +111,7 @@ def bearing(
     defects : Defect, or mapping of str to Defect
         Defects, as :mod:`ballrace.defects` makes them; a single one is named ``defect``.
     lubricant : str or Lubricant, optional
-        Oil by its name (:func:`ballrace.lubricants`) or its numbers; by default the contacts are dry.
+        Oil by its name (:func:`ballrace.lubricants`) or its numbers; by default friction is dry.
     temperature_c : float, optional
         Temperature of an oil by name where it enters the contacts [°C].
     housing : {"pedestal"}, Structure or None

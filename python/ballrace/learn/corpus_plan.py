@@ -1,4 +1,4 @@
-"""What a set of records of many bearings is drawn by."""
+"""Plan of a set of records of many bearings: sizes, states, chains and the split, each by its number."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ OWN = {
 
 @dataclass(frozen=True, kw_only=True)
 class Plan:
-    """What a set is drawn by; its signals depend on nothing else.
+    """Plan of a set, on which alone its signals depend.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What a simulated bearing has of its own, drawn by chance: fields of a scene by their dotted paths."""
+"""Fields of a scene in which simulated bearings differ, drawn by chance, by their dotted paths."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ _EDGE = (0.01, 0.25)
 _LENGTH = 0.6
 """Longest spall across rolling in ball diameters: wider than any contact."""
 _AROUND = 0.7
-"""How far from the middle of the load zone a fault of the outer race may lie [rad]."""
+"""Largest angle of a fault of the outer race from the middle of the load zone [rad]."""
 
 _MASS = (0.5, 4.0)
 """Masses of the machine over those of a pedestal."""
@@ -107,7 +107,7 @@ def fault_fields(
 
 
 def is_small(scene: Scene, name: str) -> bool:
-    """Whether a pit or a dent is smaller than its contact, which a scene with one that is not refuses."""
+    """Return whether a pit or a dent is smaller than its contact: a scene with one that is not is refused."""
     try:
         equilibrium(scene)
     except SceneError as error:
