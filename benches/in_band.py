@@ -25,7 +25,7 @@ import numpy as np
 from scipy import signal, stats
 
 import ballrace as br
-from verdict_library import log_uniform
+from ballrace.learn.drawn import log_uniform
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -82,14 +82,14 @@ def drawn(count: int) -> dict[str, br.Scene]:
     found = {}
     for number in range(count):
         bearing = br.catalogue[str(rng.choice(names))]
-        load = log_uniform(rng, 0.005, 0.08) * bearing.static_rating
-        width = log_uniform(rng, 0.03, 0.3) * bearing.ball_diameter
+        load = log_uniform(rng, (0.005, 0.08)) * bearing.static_rating
+        width = log_uniform(rng, (0.03, 0.3)) * bearing.ball_diameter
         spall = br.defects.spall(
             on=("outer_race", "inner_race")[number % 2], width_mm=1e3 * width, edge_radius_mm=30.0 * width
         )  # fmt: skip
         found[f"{number} {bearing.designation}"] = br.bearing(
             bearing, radial_load=load, axial_load=rng.uniform(0.0, 0.4) * load,
-            speed_rpm=log_uniform(rng, 600.0, 3600.0), defects=spall,
+            speed_rpm=log_uniform(rng, (600.0, 3600.0)), defects=spall,
         )  # fmt: skip
     return found
 

@@ -7,15 +7,19 @@ reads ``benches/verdict_library.csv``, which ``benches/verdict_library.py`` make
 
 =====================  ==========================================================================================
 ``bearing``            designation
-``part``               what is damaged, or ``none``
+``part``               what is damaged, two surfaces joined by ``+``, or ``none``
 ``speed_rpm``, ``fs``  speed [1/min], sampling rate [Hz]
 ``load``               radial load over the static rating
-``width``, ``edge``    width of the spall and radius of its edges [ball diameters]
+``width``, ``edge``    width of the damage and radius of its edges, 0 of dents and holes [ball diameters]
 ``snr_db``             vibration over noise [dB]
 ``z_…``, ``depth_…``   of the evidence for the outer race, the inner race, a ball; nan where not judged
 ``accel_…``            its acceleration, at any size and speed: :func:`ballrace.diagnosis.likelihood.at_any_size`
 ``kurtosis``           largest of a band
-``spacing`` and so on  of the passes of the damaged race: see :class:`ballrace.diagnosis.passes.Passes`
+``spacing`` and so on  of the passes of a spall of a race: see :class:`ballrace.diagnosis.passes.Passes`
+``shape``              what the damage is: ``spall``, ``pit``, ``dent``, ``cap``, ``none``, or two of these
+``lag``                how far the cage lags behind the orders that records are judged by, as a part of it
+``weaker_db``          what the path takes off [dB]
+``clipped``            share of the samples that are clipped
 =====================  ==========================================================================================
 """
 
@@ -41,6 +45,8 @@ if TYPE_CHECKING:
 
 TABLE = Path(__file__).with_name("verdict_library.csv")
 FIT = Path(br.__file__).parent / "diagnosis" / "fit.json"
+WORDS = ("bearing", "part", "shape")
+"""Columns of words."""
 RIDGE = 0.3
 """Pull of the coefficients of standardised numbers towards 0."""
 
@@ -54,15 +60,20 @@ def library(path: Path = TABLE) -> NDArray[Any]:
     """Return the table, a structured array of a record a row."""
     with path.open(encoding="utf-8") as file:
         names = file.readline().strip().split(",")
-        kinds = [(name, "U10" if name in ("bearing", "part") else float) for name in names]
+        kinds = [(name, "U21" if name in WORDS else float) for name in names]
         return np.genfromtxt(file, delimiter=",", dtype=kinds, encoding="utf-8")
 
 
-def judged() -> NDArray[Any]:
-    """Return the records of the library that are long enough for evidence."""
-    rows = library()
+def judged(rows: NDArray[Any] | None = None) -> NDArray[Any]:
+    """Return the records of a library that have evidence; by default of the one that is kept."""
+    rows = library() if rows is None else rows
     found: NDArray[Any] = rows[np.isfinite(rows["kurtosis"])]
     return found
+
+
+def damaged(rows: NDArray[Any], part: Part) -> NDArray[np.bool_]:
+    """Return whether a part is what is damaged, or one of two that are, shape (rows,)."""
+    return np.array([part in each.split("+") for each in rows["part"].tolist()])
 
 
 @functools.cache
@@ -73,7 +84,7 @@ def regression(part: Part, sized: bool, without: str = "") -> dict[str, Any]:
     """
     rows = judged()
     rows = rows[rows["bearing"] != without]
-    x, true = numbers_of(part, rows, sized), rows["part"] == part
+    x, true = numbers_of(part, rows, sized), damaged(rows, part)
     mean, deviation = x.mean(axis=0), x.std(axis=0)
     x = np.column_stack([np.ones(len(x)), (x - mean) / deviation])
 
@@ -117,7 +128,7 @@ def strength() -> dict[str, float]:
     The decimal logarithm of a·D²/v is a line over that of the width in ball diameters.
     """
     rows = judged()
-    rows = rows[rows["part"] == "outer_race"]
+    rows = rows[(rows["part"] == "outer_race") & (rows["edge"] > 0.0)]
     width, size = np.log10(rows["width"]), np.log10(rows["accel_outer_race"])
     slope, constant = np.polyfit(width, size, 1)
     below = float(np.quantile(size - constant - slope * width, NINE_IN_TEN))

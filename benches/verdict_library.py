@@ -1,12 +1,13 @@
 """Make the library of simulated records anew that verdicts are read against.
 
-    python benches/verdict_library.py [--runs FOLDER]
+    python benches/verdict_library.py [--runs FOLDER] [--first N] [--count N] [-o TABLE]
+    python benches/verdict_library.py --cover PICTURE [-o TABLE]
 
-writes ``python/ballrace/diagnosis/library.csv``: 480 runs of 25 turns, healthy and damaged, half of them with
-waves of the races, half with textures. Each is recorded three times without its first turn, and one with a damaged
-race three more times for its width alone: at the end of a path by chance or on the pedestal, in white noise of
-0.05 to 2 m/s², logged at 12.8, 25.6 or 51.2 kHz. With a folder the runs are kept there, and those that are there
-are not simulated anew: a change of what is *found* in records needs none.
+writes ``benches/verdict_library.csv``: runs of 25 turns of healthy and damaged bearings, of which the first turn
+is left out. Each is recorded three times, and one with a spall of a race three more times for its width alone.
+Every case and every record is drawn from its own number, so any can be made by itself. With a folder finished runs
+are kept there and not simulated anew: a change of what is *found* in records needs none, and an interrupted call
+goes on. What is drawn, and why, stands in ``verdict_cases.py``.
 """
 
 from __future__ import annotations
@@ -14,12 +15,16 @@ from __future__ import annotations
 import argparse
 import csv
 import math
+import multiprocessing
+import os
 import tempfile
 import time
 import warnings
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -29,95 +34,29 @@ from ballrace.diagnosis.kinematics import kinematics_of
 from ballrace.diagnosis.likelihood import at_any_size
 from ballrace.diagnosis.passes import passes_of
 from ballrace.diagnosis.width import along
+from ballrace.learn.drawn import log_uniform
+from verdict_cases import ACCUSED, RACES, TURNS, Case, case
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from numpy.typing import NDArray
 
-TABLE = Path(br.__file__).parent / "diagnosis" / "library.csv"
+    Row = dict[str, str | float]
+
+TABLE = Path(__file__).with_name("verdict_library.csv")
 JUDGED, SIZED = 3, 6
-FS, TURNS = 51_200.0, 24
-BEARINGS = ("6004", "6203", "6205", "6207", "6306", "6309", "6310", "6000")
-COUNT = 480
-TEXTURED = 240
-"""Number from which on races are textured; before, they have waves."""
-# Of ten runs.
-PARTS = (*[None] * 3, *["outer_race"] * 3, *["inner_race"] * 3, "ball")
-ACCUSED = ("outer_race", "inner_race", "ball")
+FS = 51_200.0
+COUNT = 600
+WEAKER, NEAR = 26.0, 0.2
+"""Attenuation of the farthest sensor [dB]; share of records of a sensor on the pedestal itself."""
+QUIETER = 20.0
+"""How much less noise of the motor there is at most on a bearing that stands apart from it [dB]."""
+RATES = (12_000.0, 20_000.0, 25_600.0, 51_200.0)
+NARROWED, CLIPPED = 1 / 8, 1 / 12
+COLUMNS = ("seat.fx", "seat.fy", "seat.fz", "housing.sensor.ay")
 EVIDENCE = [*(f"{name}_{part}" for part in ACCUSED for name in ("z", "depth", "accel")), "kurtosis"]
-
-
-@dataclass(frozen=True)
-class Case:
-    """A run of the library; lengths of its defect in ball diameters."""
-
-    number: int
-    bearing: br.Bearing
-    part: str | None
-    rpm: float
-    load: float
-    width: float
-    edge: float
-    scene: br.Scene
-
-
-def log_uniform(rng: np.random.Generator, low: float, high: float) -> float:
-    """Draw a number whose logarithm is even."""
-    return math.exp(rng.uniform(math.log(low), math.log(high)))
-
-
-def case(number: int) -> Case:
-    """Draw a run."""
-    rng = np.random.default_rng([42, number])
-    bearing = br.catalogue[BEARINGS[number // 10 % len(BEARINGS)]]
-    part = PARTS[number % 10]
-    rpm, load = log_uniform(rng, 600.0, 3600.0), log_uniform(rng, 0.005, 0.08)
-    thrust, width = rng.uniform(0.0, 0.4), rng.uniform(0.03, 0.45)
-    edge = log_uniform(rng, 0.0025, 0.04)
-    length, clearance = rng.uniform(0.25, 0.8), str(rng.choice(["C2", "CN", "C3"]))
-    outer, inner = (waves(rng) for _ in range(2))
-    start = float(rng.uniform(0.0, 6.28))
-    radial = load * bearing.static_rating
-    scene = br.bearing(
-        bearing, radial_load=radial, axial_load=thrust * radial, speed_rpm=rpm, clearance=clearance,
-        defects=defect(part, bearing, width, edge, length),
-    )  # fmt: skip
-    row = replace(scene.rows[0], start_angle=start)
-    if number < TEXTURED:
-        row = replace(row, outer_waviness=outer, inner_waviness=inner)
-    else:
-        row = replace(row, texture=texture(rng))
-    width = 0.0 if part is None else width
-    return Case(number, bearing, part, rpm, load, width, edge, replace(scene, rows=(row,)))
-
-
-def waves(rng: np.random.Generator) -> tuple[br.scene.Waviness, ...]:
-    """Draw six waves of a race, of 5 to 200 nm."""
-    orders = rng.choice(np.arange(2, 40), 6, replace=False)
-    heights = 1e-6 * np.exp(rng.uniform(math.log(0.005), math.log(0.2), 6))
-    drawn = zip(orders.tolist(), heights.tolist(), rng.uniform(0.0, 6.28, 6).tolist(), strict=True)
-    return tuple(br.scene.Waviness(order=o, amplitude=a, phase=p) for o, a, p in drawn)
-
-
-def texture(rng: np.random.Generator) -> br.scene.Texture:
-    """Draw a texture of the races, of quiet to loud bearings."""
-    outer, inner = (log_uniform(rng, 2e-10, 5e-9) for _ in range(2))
-    return br.scene.Texture(
-        outer=outer, inner=inner, slope=rng.uniform(1.5, 2.5), seed=int(rng.integers(1 << 30))
-    )
-
-
-def defect(
-    part: str | None, bearing: br.Bearing, width: float, edge: float, length: float
-) -> br.scene.Defect | None:
-    """Return a spall of a race, or a cap of a ball, which is met however the ball turns."""
-    ball = 1e3 * bearing.ball_diameter
-    if part is None:
-        return None
-    if part == "ball":
-        return br.defects.cap(width_mm=max(width, 0.05) * ball, edge_radius_mm=edge * ball)
-    return br.defects.spall(
-        on=part, width_mm=width * ball, length_mm=length * ball, edge_radius_mm=edge * ball
-    )
+PASSES = ("spacing", "height", "above", "bands", "agreeing")
 
 
 def run(of: Case, folder: Path) -> NDArray[np.float64]:
@@ -125,81 +64,182 @@ def run(of: Case, folder: Path) -> NDArray[np.float64]:
     path = folder / f"{of.number}.npy"
     if not path.exists():
         out = br.simulate(of.scene, duration=(TURNS + 1) * 60.0 / of.rpm, fs=FS)
-        names = ("seat.fx", "seat.fy", "seat.fz", "housing.sensor.ay")
-        np.save(path, np.stack([out[name] for name in names], 1).astype(np.float32))
+        # Whole or not at all, whenever it is interrupted.
+        made = folder / f"{of.number}.{os.getpid()}.tmp"
+        with made.open("wb") as file:
+            np.save(file, np.stack([out[name] for name in COLUMNS], 1).astype(np.float32))
+        made.replace(path)
     return np.load(path).astype(np.float64)[int(FS * 60.0 / of.rpm) :]
 
 
-def recorded(of: Case, x: NDArray[np.float64], time_: int) -> tuple[br.Channel, float]:
-    """Return a record of a run, and how far its noise is below it [dB]."""
-    rng = np.random.default_rng([43, of.number, time_])
-    fs = float(rng.choice([12_800.0, 25_600.0, 51_200.0]))
-    noise = log_uniform(rng, 0.05, 2.0)
-    logger = br.measuring.Logger(fs=fs) if fs < FS else None
-    if rng.uniform() < 0.85:
-        path = br.measuring.random_housing(seed=1000 + 10 * of.number + time_)
-        measured = br.measure(x[:, :3], fs=FS, path=path, logger=logger).x
+@dataclass(frozen=True)
+class Recorded:
+    """A record of a run, how far noise is below it and its path weakens it [dB], and the share that is clipped."""
+
+    channel: br.Channel
+    snr: float
+    weaker: float
+    clipped: float
+
+
+def recorded(of: Case, x: NDArray[np.float64], time_: int) -> Recorded:
+    """Record a run on a machine by chance."""
+    rng = np.random.default_rng([68, of.number, time_])
+    (chain,) = br.measuring.random_chains(1, seed=int(rng.integers(1 << 30))).values()
+    near, weakened, narrowed, clipped, quiet = (float(rng.random()) for _ in range(5))
+    chain = replace(chain, machine=quieter(QUIETER * quiet, chain.machine))
+    fs = float(rng.choice(RATES))
+    flat = log_uniform(rng, (1500.0, 0.4 * fs)) if narrowed < NARROWED else None
+    of_record: dict[str, Any] = {"fs": FS, "shaft": of.rpm / 60.0, "seed": 100 * of.number + time_}
+    if near < NEAR:
+        weaker, signal = 0.0, x[:, 3]
+        chain = replace(chain, path=None, direction=None)
     else:
-        measured = br.measure(x[:, 3], fs=FS, logger=logger).x
-    snr = 20.0 * math.log10(measured.std() / noise)
-    measured = measured + noise * rng.normal(size=measured.size)
-    return br.Channel(x=measured, fs=fs, unit="m/s^2", shaft=of.rpm / 60.0), snr
+        weaker, signal = WEAKER * weakened**2, x[:, :3]
+        chain = replace(chain, path=path_of(of.bearing, weaker, chain.path))
+    logger = replace(chain.logger, fs=fs, bandwidth=flat)
+    silent = replace(chain, machine=None, sensor=None, logger=replace(logger, bits=None))
+    own = br.measuring.chain.measured(signal, silent, **of_record).x
+    found = br.measuring.chain.measured(signal, replace(chain, logger=logger), **of_record)
+    if clipped < CLIPPED:
+        most = float(np.abs(found.x).max()) * rng.uniform(0.3, 0.9)
+        chain = replace(chain, logger=replace(logger, range=most))
+        found = br.measuring.chain.measured(signal, chain, **of_record)
+    snr = 20.0 * math.log10(own.std() / max((found.x - own).std(), 1e-9))
+    channel = br.Channel(x=found.x, fs=found.fs, unit="m/s^2", shaft=of.rpm / 60.0)
+    return Recorded(channel, snr, weaker, found.clipped)
 
 
-def row_of(of: Case, record: br.Channel, snr: float, judged: bool) -> dict[str, str | float]:
+def quieter(decibels: float, machine: br.measuring.Machine) -> br.measuring.Machine:
+    """Return a machine with so much less noise."""
+    f, density = machine.noise_density
+    return replace(machine, noise_density=(f, np.multiply(density, 10.0 ** (-decibels / 10.0))))
+
+
+def path_of(bearing: br.Bearing, decibels: float, path: br.Structure) -> br.Structure:
+    """Return a path whose sensor shows so much less, with the masses that go with a size of bearing.
+
+    Walls of a pedestal n times as large ring at frequencies n times lower, with n³ times the mass;
+    at like frequencies with n² times. Drawn ones are like those of a 6205.
+    """
+    size = bearing.outside_diameter / br.catalogue["6205"].outside_diameter
+    more = 10.0 ** (decibels / 20.0) * size**2
+    return replace(path, modes=tuple(replace(mode, mass=mode.mass * more) for mode in path.modes))
+
+
+def row_of(of: Case, record: Recorded, judged: bool) -> Row:
     """Return what is found in a record."""
-    row: dict[str, str | float] = {
-        "bearing": of.bearing.designation, "part": of.part or "none", "speed_rpm": of.rpm, "load": of.load,
-        "width": of.width, "edge": of.edge, "fs": record.fs, "snr_db": snr,
+    channel = record.channel
+    row: Row = {
+        "bearing": of.bearing.designation, "part": "+".join(of.parts) or "none", "speed_rpm": of.rpm,
+        "load": of.load, "width": of.width, "edge": of.edge, "fs": channel.fs, "snr_db": record.snr,
     }  # fmt: skip
-    row |= evidence_of(of, record) if judged else dict.fromkeys(EVIDENCE, math.nan)
-    names = ("spacing", "height", "above", "bands", "agreeing")
-    row |= dict.fromkeys(names, math.nan)
-    if of.part in ACCUSED[:2]:
-        passes = passes_of(
-            record.x, record.fs, along(of.bearing, of.part, nominal(of), of.bearing.contact_angle)
-        )
+    row |= evidence_of(of, channel) if judged else dict.fromkeys(EVIDENCE, math.nan)
+    row |= dict.fromkeys(PASSES, math.nan)
+    if is_sized(of):
+        part = of.parts[0]
+        speed = along(of.bearing, part, nominal(of), of.bearing.contact_angle)
+        passes = passes_of(channel.x, channel.fs, speed)
         if passes is not None:
-            row |= {name: getattr(passes, name) for name in names}
-    return row
+            row |= {name: getattr(passes, name) for name in PASSES}
+    more: Row = {
+        "shape": "+".join(of.shapes) or "none", "lag": of.lag, "weaker_db": record.weaker,
+        "clipped": record.clipped,
+    }  # fmt: skip
+    return row | more
+
+
+def is_sized(of: Case) -> bool:
+    """Whether it has a spall of a race alone, whose width a record may show."""
+    return len(of.parts) == 1 and of.parts[0] in RACES and of.edge > 0.0
 
 
 def nominal(of: Case) -> float:
     """Return the rate of the damage of a race by kinematics [Hz]."""
     orders = of.bearing.orders
-    return (orders.bpfo if of.part == "outer_race" else orders.bpfi) * of.rpm / 60.0
+    return (orders.bpfo if of.parts[0] == "outer_race" else orders.bpfi) * of.rpm / 60.0
+
+
+def promised(of: Case) -> br.Bearing:
+    """Return the bearing as a catalogue has it behind whose cage that of the run lags."""
+    bearing = of.bearing
+    ftf = bearing.orders.ftf / (1.0 - of.lag)
+    # 2 f = 1 - D cos(α) / D_pw, of balls that may be as small as it takes.
+    share = max(1.0 - 2.0 * ftf, 0.02) / math.cos(bearing.contact_angle)
+    return replace(bearing, ball_diameter=share * bearing.pitch_diameter)
 
 
 def evidence_of(of: Case, record: br.Channel) -> dict[str, float]:
     """Return the evidence for all parts."""
-    found = examined(record, kinematics_of(of.bearing), of.rpm / 60.0)
+    found = examined(record, kinematics_of(promised(of)), of.rpm / 60.0)
+    return numbers_of(found, of.bearing.pitch_diameter)
+
+
+def numbers_of(found: Any, diameter: float) -> dict[str, float]:
+    """Return the evidence of what is examined, for a pitch diameter [m]."""
     values: list[float] = []
     for part in ACCUSED:
         one = found.evidence[part]
-        size = at_any_size(one.strength.acceleration, of.bearing.pitch_diameter, found.shaft.rate)
+        size = at_any_size(one.strength.acceleration, diameter, found.shaft.rate)
         values += [one.z, one.strength.depth, size]
     return dict(zip(EVIDENCE, [*values, one.strength.kurtosis], strict=True))
+
+
+def rows_of(number: int, folder: Path) -> tuple[list[Row], float, float]:
+    """Return the rows of a run, and the times of its processor that the run and its records took [s].
+
+    One that fails has none, and says so: the others count.
+    """
+    warnings.simplefilter("ignore")
+    began = time.process_time()
+    of = case(number)
+    try:
+        x = run(of, folder)
+    except br.BallraceError as error:
+        print(f"run {number} failed: {error}")
+        return [], time.process_time() - began, 0.0
+    ran = time.process_time()
+    count = SIZED if is_sized(of) else JUDGED
+    rows = [row_of(of, recorded(of, x, k), judged=k < JUDGED) for k in range(count)]
+    return rows, ran - began, time.process_time() - ran
+
+
+def all_rows(numbers: range, folder: Path, workers: int) -> Iterator[Row]:
+    """Yield the rows of runs in their order, made on all cores, and tell how far it is."""
+    started = multiprocessing.get_context("spawn")
+    times, began = [0.0, 0.0], time.monotonic()
+    with ProcessPoolExecutor(workers, mp_context=started) as pool:
+        made = pool.map(partial(rows_of, folder=folder), numbers)
+        for done, (rows, *took) in enumerate(made, start=1):
+            times = [sum(pair) for pair in zip(times, took, strict=True)]
+            spent = f"runs {times[0]:.0f} s, records {times[1]:.0f} s of a core"
+            print(f"{done} of {len(numbers)}, {time.monotonic() - began:.0f} s: {spent}", end="\r")
+            yield from rows
+    print()
 
 
 def main() -> None:
     """Write the table."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--runs", type=Path, metavar="FOLDER", help="where runs are kept")
+    parser.add_argument("--first", type=int, default=0, help="number of the first run")
     parser.add_argument("--count", type=int, default=COUNT, help="runs (default: %(default)s)")
+    parser.add_argument("--workers", type=int, default=os.cpu_count() or 1, help="processes")
+    parser.add_argument(
+        "--cover", type=Path, metavar="PICTURE", help="measured records on the table"
+    )
     parser.add_argument("-o", "--output", type=Path, default=TABLE)
     options = parser.parse_args()
-    warnings.simplefilter("ignore", br.SceneWarning)
-    begun = time.process_time()
+    if options.cover is not None:
+        from verdict_cover import cover
+
+        cover(options.output, options.cover)
+        return
+    numbers = range(options.first, options.first + options.count)
     with tempfile.TemporaryDirectory() as temporary:
         folder = options.runs or Path(temporary)
         folder.mkdir(parents=True, exist_ok=True)
-        rows = []
-        for number in range(options.count):
-            of = case(number)
-            x = run(of, folder)
-            count = SIZED if of.part in ACCUSED[:2] else JUDGED
-            rows += [row_of(of, *recorded(of, x, k), judged=k < JUDGED) for k in range(count)]
-            print(f"{number + 1} of {options.count}, {time.process_time() - begun:.0f} s", end="\r")
+        rows = list(all_rows(numbers, folder, options.workers))
     with options.output.open("w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(rows[0])

@@ -413,7 +413,7 @@ def cages(ax: Axes) -> None:
 
 def reliability(ax: Axes) -> None:
     """Draw shares of damaged parts over the chances by the fit, of bearings that the fit did not see."""
-    from verdict_fit import judged, ratios, regression
+    from verdict_fit import damaged, judged, ratios, regression
 
     rows = judged()
     chances, true = [], []
@@ -423,13 +423,13 @@ def reliability(ax: Axes) -> None:
             model = regression(part, True, bearing)
             odds = model["prior"] / ratios(model, numbers_of(part, own, True))
             chances += (odds / (1.0 + odds)).tolist()
-            true += (own["part"] == part).tolist()
-    chance, damaged = np.array(chances), np.array(true)
+            true += damaged(own, part).tolist()
+    chance, known = np.array(chances), np.array(true)
     ax.plot([0, 1], [0, 1], color=EDGE, lw=0.8, ls="--")
     edges = [0.0, 0.05, 0.2, 0.4, 0.6, 0.8, 0.95, 1.0]
     for low, high in pairwise(edges):
         among = (chance >= low) & (chance <= high)
-        share, count = damaged[among].mean(), np.count_nonzero(among)
+        share, count = known[among].mean(), np.count_nonzero(among)
         error = np.sqrt(max(share * (1.0 - share), 0.25 / count) / count)
         ax.errorbar(chance[among].mean(), share, error, color=BLUE, marker="o", capsize=3)
         ax.text(chance[among].mean() + 0.03, share - 0.02, str(count), fontsize=8, va="top")

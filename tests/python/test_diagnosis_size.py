@@ -21,9 +21,9 @@ import ballrace as br
 from ballrace.diagnosis.fit import fit
 from ballrace.diagnosis.likelihood import numbers_of, with_ratios
 from ballrace.diagnosis.null import ACCUSED, probability
-from ballrace.diagnosis.verdict import DOUBT, UNLIKELY
+from ballrace.diagnosis.verdict import UNLIKELY
 from ballrace.diagnosis.width import are_clear
-from verdict_fit import bridged, judged, library, ratios, regression, strength
+from verdict_fit import bridged, damaged, judged, library, ratios, regression, strength
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -180,8 +180,9 @@ def test_an_interval_of_nine_in_ten_holds_nine_in_ten() -> None:
             count += len(own)
     print(f"\n[verdict] simulated, width given, {count} records | {held / count:.0%} within 90 % intervals | "
           f"median error {np.median(errors):.0%}")  # fmt: skip
-    assert count >= 100
-    assert 0.85 <= held / count <= 0.95
+    assert count >= 60
+    # Two standard deviations of a binomial distribution.
+    assert abs(held - 0.9 * count) <= 2.0 * math.sqrt(0.09 * count)
 
 
 def test_few_widths_are_reported_of_spalls_that_are_too_narrow() -> None:
@@ -209,32 +210,36 @@ def test_a_likelihood_ratio_is_calibrated(sized: bool) -> None:
             model = regression(part, sized, str(bearing))
             odds = model["prior"] / ratios(model, numbers_of(part, own, sized))
             chance += (odds / (1.0 + odds)).tolist()
-            true += (own["part"] == part).tolist()
-    predicted, damaged = np.array(chance), np.array(true)
+            true += damaged(own, part).tolist()
+    predicted, known = np.array(chance), np.array(true)
     off = 0.0
     for low, high in ((0.0, 0.05), (0.05, 0.3), (0.3, 0.7), (0.7, 0.95), (0.95, 1.01)):
         among = (low <= predicted) & (predicted < high)
-        mean, share = predicted[among].mean(), damaged[among].mean()
+        mean, share = predicted[among].mean(), known[among].mean()
         off += abs(mean - share) * among.mean()
         unit = "with" if sized else "without"
         print(f"\n[verdict] simulated, chance of damage {low:g} to {min(high, 1.0):g}, {unit} unit | "
               f"{share:.0%} of {np.count_nonzero(among)} damaged | {mean:.0%} predicted")  # fmt: skip
     assert off < 0.03
-    # As good as chance would be 0.25 for halves; a fit that knows the shares alone has 0.17.
-    assert float(np.mean((predicted - damaged) ** 2)) < 0.08
+    # Half of what a fit has that knows the shares alone.
+    shares = np.array([damaged(rows, part).mean() for part in ACCUSED])
+    assert float(np.mean((predicted - known) ** 2)) < 0.5 * float(np.mean(shares * (1.0 - shares)))
 
 
 def test_strength_is_judged_alike_at_any_size() -> None:
-    """Truth: analytic. Waves of one height cause accelerations as 1/D², also in healthy ones of the library."""
+    """Truth: analytic. Waves of one height cause forces as D, which move a pedestal that is as large as 1/D².
+
+    At the end of a path whose frequencies stay, they do as 1/D; the library has both.
+    """
     rows = judged()
     rows = rows[rows["part"] == "none"]
     diameter = np.array([br.catalogue[name].pitch_diameter for name in rows["bearing"]])
     speed = np.log(np.pi * diameter * rows["speed_rpm"] / 60.0)
     known = np.column_stack([np.ones(len(rows)), np.log(diameter), speed])
-    left = np.linalg.lstsq(known, np.log(rows["accel_outer_race"]), rcond=None)[0][1]
+    power = np.linalg.lstsq(known, np.log(rows["accel_outer_race"]), rcond=None)[0][1] - 2.0
     print(f"\n[verdict] simulated, acceleration of healthy bearings over their pitch diameter | "
-          f"to the power {left - 2.0:.1f} | by theory −2")  # fmt: skip
-    assert abs(left) < 0.4
+          f"to the power {power:.1f} | by theory −2 on the pedestal, −1 further away")  # fmt: skip
+    assert -2.0 <= power <= -1.0
     # Half the size, at the same speed of the pitch circle and with four times the acceleration: the same ratio.
     evidence = br.diagnose(passes("outer_race", 0.3), "6205", RPM, fs=FS, unit="m/s^2").evidence
     here, larger = ({p: _times(one, by) for p, one in evidence.items()} for by in (1.0, 4.0))
@@ -261,10 +266,9 @@ def test_healthy_bearings_of_the_library_are_accused_at_the_rate_asked_for() -> 
         for part in ACCUSED:
             chance = np.array([probability(z, len(ACCUSED)) for z in own[f"z_{part}"]])
             ratio = ratios(regression(part, True, str(bearing)), numbers_of(part, own, True))
-            plain = (own[f"depth_{part}"] >= SHALLOW) & (own["kurtosis"] >= SMOOTH)
-            strong = plain & ((own[f"accel_{part}"] >= TINY) | (part == "ball"))
-            likely = (chance < 0.01 * DOUBT) & (ratio < UNLIKELY[part])
-            named |= strong & ((chance < 0.01) | likely)
+            struck = (own[f"depth_{part}"] >= SHALLOW) & (own["kurtosis"] >= SMOOTH)
+            strong = (own[f"accel_{part}"] >= TINY) | (ratio < UNLIKELY) | (part == "ball")
+            named |= struck & strong & (chance < 0.01)
         accused += int(np.count_nonzero(named))
     print(f"\n[verdict] simulated, {len(rows)} healthy of the library, each bearing judged by all others | "
           f"{accused / len(rows):.1%} accused | 1 % asked for")  # fmt: skip

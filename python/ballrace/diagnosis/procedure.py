@@ -75,11 +75,10 @@ def diagnose(
     the combs of lines that faults of each part have, all at one speed of the cage. Their heights are compared
     with hundreds of combs at orders of the same record that no part has, so that the rate of false alarms is
     known, without training and without a threshold in decibels. Lines that stand out are damage where they are
-    deep, come from impacts and are not tiny; otherwise they are left open, and only in a run itself called
-    healthy. Lines that chance has in up to three times as many records as ``false_alarm`` allows are damage at
-    odds of twenty to one among simulated bearings. A record is called healthy where damage would have stood out
-    in it: not with a narrow band, at a nominal speed that it does not show, with impacts at no rate of the
-    bearing, or with too few turns to separate a race from the shaft.
+    deep, come from impacts and are not tiny, or tiny at odds of ten to one among simulated bearings; otherwise
+    they are left open, and only in a run itself called healthy. A record is called healthy where damage would have
+    stood out in it: not with a narrow band, at a nominal speed that it does not show, with impacts at no rate of
+    the bearing, or with too few turns to separate a race from the shaft.
 
     Parameters
     ----------
