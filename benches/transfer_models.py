@@ -68,7 +68,7 @@ class Record:
 
     @property
     def is_forecast(self) -> bool:
-        """Whether nothing was chosen by it."""
+        """Fitness of the record as a forecast: whether nothing was chosen by it."""
         return self.of.collection != "HIT-SM" and self.of.name not in CHOSEN_BY
 
 
@@ -156,7 +156,7 @@ def held_out(folder: Path, per_class: int) -> dict[str, list[float]]:
 
 @dataclass(frozen=True)
 class Named:
-    """What is said of a record: a class, those of its windows, and whether it shows lines of a fault."""
+    """Judgement of a record: a class, those of its windows, and whether it shows lines of a fault."""
 
     record: Record
     found: str
@@ -222,7 +222,8 @@ def by_other_sizes(records: Sequence[Record], classifier: Any) -> Iterator[Named
             model = trained([*train, *(first for first, _ in healthy)], classifier)
             learnt = {one.truth for one in train}
             asked = [one for one in own if size_of(one) == size and one.truth in learnt]
-            for record in [*asked, *(second for _, second in healthy if k == 0)]:
+            second = [later for _, later in healthy if k == 0 and asked]
+            for record in [*asked, *second]:
                 yield by_model(model, record)
 
 

@@ -115,7 +115,7 @@ def case(number: int) -> Case:
 
 
 def is_apart(name: str) -> bool:
-    """Whether the lines of an inner race are apart from the shaft's in so many turns.
+    """Separation of an inner race: whether its lines are apart from the shaft's in so many turns.
 
     Of the others, half of the sizes, such records carry no evidence, and verdicts are left open without a ratio.
     """
@@ -215,7 +215,7 @@ def dent(scene: br.Scene, part: str, width: float, **shape: float) -> br.scene.D
 
 
 def takes(scene: br.Scene, defect: br.scene.Defect, field: str) -> bool:
-    """Whether a scene takes a defect; False if it refuses its width or its length."""
+    """Return whether a scene takes a defect: False if it refuses its width or its length."""
     try:
         br.equilibrium(scene.replace({"defects.tried": defect}))
     except br.SceneError as error:

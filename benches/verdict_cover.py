@@ -48,7 +48,7 @@ STANDARD_GRAVITY = 9.80665
 
 @dataclass(frozen=True, kw_only=True)
 class Shown:
-    """What is shown of a measured record: a race, a width in ball diameters, speed, rate, and numbers by name."""
+    """Numbers of a measured record by name, with its race, width in ball diameters, speed and sampling rate."""
 
     group: str
     part: str

@@ -1,4 +1,4 @@
-"""What each condition of a verdict is worth: verdicts on known records with one left out at a time.
+"""Worth of each condition of a verdict: verdicts on known records with one left out at a time.
 
     python benches/verdict_gates.py [--runs FOLDER] [--count N] [-o TABLE]
 
@@ -43,7 +43,7 @@ COUNT = 600
 
 @dataclass(frozen=True, kw_only=True)
 class Judged:
-    """What a verdict on a record is decided from, and what is damaged."""
+    """Arguments from which a verdict on a record is decided, and what is damaged."""
 
     source: str
     parts: frozenset[str]
@@ -141,7 +141,7 @@ def again(of: Judged, gate: Gate) -> Verdict:
 
 
 Counts = dict[str, int]
-"""How many verdicts are of a kind."""
+"""Numbers of verdicts by their kind."""
 
 
 def counts(of: Sequence[Judged], found: Sequence[Verdict]) -> Counts:

@@ -22,7 +22,7 @@ from ballrace.diagnosis.fit import fit
 from ballrace.diagnosis.likelihood import numbers_of, with_ratios
 from ballrace.diagnosis.null import ACCUSED, probability
 from ballrace.diagnosis.verdict import UNLIKELY
-from ballrace.diagnosis.width import are_clear
+from ballrace.diagnosis.width import are_clear, width_of_arc
 from verdict_fit import bridged, damaged, judged, library, ratios, regression, strength
 
 if TYPE_CHECKING:
@@ -114,6 +114,17 @@ def test_events_that_are_too_close_have_no_width(part: Race) -> None:
     assert width.value is None
     assert width.spacing == pytest.approx(0.085 * BALL, abs=0.01 * BALL)
     assert "below a tenth of a ball's diameter (0.79 mm)" in width.why
+
+
+def test_no_width_is_below_nothing() -> None:
+    """Truth: limits. Some spalls of an outer race are narrower than the arc, by more than the least arc."""
+    low, value, high = bridged("outer_race")
+    assert low < -0.1
+    width = width_of_arc("outer_race", 0.11 * BALL, BALL, "")
+    assert width.interval is not None
+    assert width.interval[0] == 0.0
+    assert width.interval[1] == pytest.approx((0.11 + high) * BALL)
+    assert width.value == pytest.approx((0.11 + value) * BALL)
 
 
 def at_speeds(arc_of: Callable[[float], float]) -> list[br.diagnosis.Diagnosis]:

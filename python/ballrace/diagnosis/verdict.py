@@ -36,7 +36,7 @@ _DOUBT = 3.0
 """Factor on the false-alarm rate up to which a part is doubted, not cleared."""
 
 UNLIKELY = 0.1
-"""Likelihood ratio of sound to damaged below which weak lines of a race are damage.
+"""Likelihood ratio of sound to damaged below which weak lines of a race are damage (:meth:`Size.is_unlikely`).
 
 Of the library's records, each bearing judged by all others, it makes 240 of 606 damaged outer races named and 293
 of 582 damaged inner ones (215 and 239 by the limits of strength alone) for 2 of 540 healthy ones (1).
@@ -137,7 +137,7 @@ class Size:
         return struck and likely and self.diameter >= _SMALL and not self.is_tiny(one, _HALF)
 
     def is_tiny(self, one: Evidence, share: float = 1.0) -> bool:
-        """Return whether lines are so weak, or weaker by a share, that a healthy bearing may have such impacts."""
+        """Return whether lines are below a share of the limit up to which a healthy bearing may have impacts."""
         tiny = next((limit for below, limit in _TINY_LOOSE if self.pressed < below), _TINY)
         tiny *= _MINIATURE if self.diameter < _SMALL else 1.0
         largest = max(one.strength.impulsive, one.strength.acceleration / _RINGING)
