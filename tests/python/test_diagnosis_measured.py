@@ -100,11 +100,6 @@ def test_records_of_case_western_reserve(number: str, first: float) -> None:
     assert found.verdict == ("damaged" if found.parts else "healthy")
     whole = br.diagnose(record, "6205", 1797.0, unit="g")
     assert whole.parts == found.parts
-    z = max(e.z for p, e in found.evidence.items() if p != "cage")
-    what = ", ".join((found.verdict, *found.parts)).replace("_", " ")
-    print(
-        f"\n[verdict] CWRU {number}, 4 s from {first:g} s | {what} | z {z:.1f}, threshold {found.threshold:.1f}"
-    )
     # As the CWRU tests have it: 29.93 Hz within 1e-3.
     assert whole.shaft.by == "record"
     assert whole.shaft.rate == pytest.approx(29.93, rel=1e-3)
@@ -119,11 +114,6 @@ def test_widths_of_hit_sm_are_within_15_percent(name: str) -> None:
     nominal = np.radians(float(name[2])) * 0.5 * (row.pitch_diameter + side * row.ball_diameter)
     assert width.value is not None
     assert width.interval is not None
-    low, high = (1e3 * end for end in width.interval)
-    print(
-        f"\n[verdict] HIT-SM {name}, width | {1e3 * width.value:.2f} mm, 90 % within {low:.2f} to {high:.2f} | "
-        f"nominal {1e3 * nominal:.2f}, {width.value / nominal - 1.0:+.0%}"
-    )
     assert width.value == pytest.approx(nominal, rel=0.15)
     assert width.interval[0] <= nominal <= width.interval[1]
 
@@ -146,24 +136,6 @@ def test_likelihood_ratios_of_hit_sm() -> None:
             assert ratio < 1.0 or part not in parts, name
             if ratio < 1.0 and part not in parts:
                 wrong.append((name, 1.0 / ratio))
-    ratios = ", ".join(f"{name} 1 : {odds:.1f}" for name, odds in wrong)
-    print(
-        f"\n[verdict] HIT-SM, likelihood ratios of 42 races | {42 - len(wrong)} on the right side of 1 | {ratios}"
-    )
     assert len(wrong) <= 4
     # That of a healthy bearing whose inner race has lines, which are not deep.
     assert max(odds for _, odds in wrong) < 12.0
-
-
-def test_the_table_of_the_validation_page() -> None:
-    """Prints how many are right and how far they are from the threshold."""
-    groups = {"healthy": "N", "inner race": "IR", "outer race": "OR"}
-    for kind, begins in groups.items():
-        names = [name for name in HIT if name.startswith(begins)]
-        found = [of_hit(name) for name in names]
-        right = sum(d.parts == TRUTH[n[0]] for n, d in zip(names, found, strict=True))
-        largest = [max(e.z for p, e in d.evidence.items() if p != "cage") for d in found]
-        z = f"z {min(largest):.1f} to {max(largest):.1f}, threshold {found[0].threshold:.1f}"
-        open_ = sum(d.verdict == "undecided" for d in found)
-        print(f"\n[verdict] HIT-SM, {kind}, 4 s | {right} of {len(names)}, {open_} undecided | {z}")
-        assert right == len(names)

@@ -64,6 +64,18 @@ def test_interrupted_and_resumed_it_has_the_same_bytes(
     assert contents(folder) == contents(made)
 
 
+@pytest.mark.filterwarnings("default")  # Dask's own
+def test_runs_of_a_scheduler_are_the_same(made: Path, tmp_path: Path) -> None:
+    distributed = pytest.importorskip("distributed", reason="Dask is not installed")
+    folder = tmp_path / "corpus"
+    options = [f"--{name}={value}" for name, value in SMALL.items() if name != "progress"]
+    with distributed.LocalCluster(
+        n_workers=1, threads_per_worker=1, processes=False, dashboard_address=None
+    ) as cluster:
+        assert main([str(folder), *options, "--dask", cluster.scheduler_address]) == 0
+    assert contents(folder) == contents(made)
+
+
 def test_rows_say_what_was_simulated(made: Path) -> None:
     found = br.read_bearing_dataset(made)
     card = json.loads((made / "manifest.json").read_text(encoding="utf-8"))

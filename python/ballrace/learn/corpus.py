@@ -25,6 +25,7 @@ import time
 import warnings
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import asdict, dataclass, fields, is_dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -353,10 +354,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = vars(parser.parse_args(arguments))
     address = options.pop("dask")
     try:
-        if address is not None:
-            distributed = needed("distributed", "a scheduler", "campaign")
-            options["executor"] = distributed.Client(address)
-        print(make_corpus(**options))
+        with _client(address) as executor:
+            print(make_corpus(**options, executor=executor))
     except KeyboardInterrupt as error:
         print(error or "interrupted", file=sys.stderr)
         return 130
@@ -367,6 +366,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(error, file=sys.stderr)
         return 1
     return 0
+
+
+def _client(address: str | None) -> AbstractContextManager[Any]:
+    """Return a client of a scheduler of Dask, or None, closed behind it."""
+    if address is None:
+        return nullcontext()
+    client: AbstractContextManager[Any] = needed("distributed", "a scheduler", "campaign").Client(
+        address
+    )
+    return client
 
 
 if __name__ == "__main__":
