@@ -164,10 +164,9 @@ class Named:
     shown: bool = True
 
 
-def by_model(model: br.learn.Diagnoser, record: Record) -> Named:
-    """Judge a record by a model, as its ``diagnose`` does."""
-    heights = [name.endswith(".height") for name in names()]
-    found = model._judged(record.X, heights)
+def by_model(model: br.learn.Diagnoser, record: Record, heights: list[bool] | None = None) -> Named:
+    """Judge a record by a model, as its ``diagnose`` does, from features of which some are heights of lines."""
+    found = model._judged(record.X, heights or [name.endswith(".height") for name in names()])
     windows = tuple(map(str, model.predict(record.X)))
     return Named(record, found.verdict, windows, found.shows_lines)
 
