@@ -5,10 +5,10 @@
 432 records: eight bearings of the catalogue, none of them in the library that verdicts are read against, each in
 nine healthy runs (smooth, waved and textured races) and nine damaged ones (outer race, inner race, a ball that
 spins freely; spalls of 0.02 to 0.45 ball diameters, evenly by their logarithm), recorded at the ends of paths by
-chance in white noise 20, 10 and 0 dB below the vibration. Runs are of 41 turns, the first of which is left out,
-and are kept in a folder. Each is judged with the speed known within 1 %, and within 0.1 %. Other seeds make other
-sets, of other bearings. 48 is a forecast; half of its inner races, as of those of 47, have an order that 40 turns
-separate from the shaft's (23 of 49 sizes from 6000 to 6412 have one).
+chance in white noise 20, 10 and 0 dB below the vibration. Runs are of 41 turns, the first of which is left out;
+with a folder they are kept there, and those that are there are not simulated anew. Each is judged with the speed
+known within 1 %, and within 0.1 %. Other seeds make other sets, of other bearings. Half of the inner races of 48,
+as of those of 47, have an order that 40 turns separate from the shaft's; so have 23 of 49 sizes, 6000 to 6412.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ import csv
 import math
 import os
 import sys
+import tempfile
 import time
 import warnings
 from concurrent.futures import ThreadPoolExecutor
@@ -37,8 +38,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 ROOT = Path(__file__).parents[1]
-RUNS = ROOT / "target" / "verdict_runs"
-TABLE = RUNS / "judged.csv"
+TABLE = ROOT / "target" / "verdict_set.csv"
 FS, TURNS = 51_200.0, 40
 NOISES = (20.0, 10.0, 0.0)
 RATES = (0.01, 0.05, 0.1)
@@ -191,7 +191,7 @@ def verdicts_on(of: Case, record: br.Channel, snr_db: float) -> Row:
     return row | {"why": found[0].why}
 
 
-def judged(seed: int = SEED, bearings: int = 8, runs: Path = RUNS) -> list[Row]:
+def judged(seed: int, bearings: int, runs: Path) -> list[Row]:
     """Return the verdicts on the records of the set, of the first so many bearings; one on each core at a time."""
     warnings.simplefilter("ignore", br.SceneWarning)
 
@@ -353,14 +353,16 @@ def is_apart(row: Row) -> bool:
 
 
 def main() -> None:
-    """Write the verdicts on the set beside its runs."""
+    """Write the verdicts on the set, and print what they come to."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--runs", type=Path, metavar="FOLDER", default=RUNS)
+    parser.add_argument("--runs", type=Path, metavar="FOLDER", help="where runs are kept")
     parser.add_argument("--seed", type=int, choices=SETS, default=SEED, help="of the set")
     parser.add_argument("--bearings", type=int, default=8, help="the first so many of eight")
     parser.add_argument("-o", "--output", type=Path, default=TABLE)
     options = parser.parse_args()
-    rows = judged(options.seed, options.bearings, options.runs)
+    with tempfile.TemporaryDirectory() as temporary:
+        rows = judged(options.seed, options.bearings, options.runs or Path(temporary))
+    options.output.parent.mkdir(exist_ok=True)
     write(rows, options.output)
     for line in summary(rows):
         print(*line, sep=" | ")
