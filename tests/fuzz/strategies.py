@@ -9,7 +9,7 @@ import json
 import types
 import typing
 from collections.abc import Mapping
-from typing import Any, Literal
+from typing import Any, ClassVar, Literal
 
 import hypothesis.strategies as st
 from hypothesis.strategies import DrawFn, SearchStrategy
@@ -107,8 +107,8 @@ def numbers(name: str) -> SearchStrategy[float]:
 def typed(hint: Any, name: str = "") -> SearchStrategy[Any]:
     """Documents of a type, fields present or not, numbers of their field's size."""
     origin, arguments = typing.get_origin(hint), typing.get_args(hint)
-    if origin in (typing.Union, types.UnionType):
-        return st.one_of([typed(each, name) for each in arguments])
+    if alike := kinds(hint):
+        return st.one_of([typed(each, name) for each in alike])
     if origin is Literal:
         return st.sampled_from(arguments)
     if origin is tuple:
@@ -138,7 +138,8 @@ def _later(hint: Any, name: str) -> SearchStrategy[Any]:
 def _part(kind: type[Part], name: str) -> SearchStrategy[Any]:
     fields = {key: _later(hint, key) for key, hint in hints(kind).items()}
     if not issubclass(kind, Variant):
-        return st.fixed_dictionaries({}, optional=fields)
+        constants = {key: st.just(each) for key, each in told_by(kind).items() if each is not None}
+        return st.fixed_dictionaries(constants, optional=fields)
     if kind.wraps:
         (inner,) = hints(kind).values()
         return st.builds(lambda value: {kind.tag: value}, typed(inner, name or kind.tag))
@@ -152,9 +153,24 @@ def hints(kind: type) -> dict[str, Any]:
     """Return the types of a part's fields, by their keys in documents."""
     if kind not in _HINTS:
         found = typing.get_type_hints(kind)
-        skip = ("tag", "wraps")
-        _HINTS[kind] = {k.removesuffix("_"): v for k, v in found.items() if k not in skip}
+        _HINTS[kind] = {
+            k.removesuffix("_"): v
+            for k, v in found.items()
+            if k not in ("tag", "wraps") and typing.get_origin(v) is not ClassVar
+        }
     return _HINTS[kind]
+
+
+def told_by(kind: type) -> dict[str, Any]:
+    """Return the constants of a class that tell it from its like in documents, None where they have none."""
+    return {key: getattr(kind, key) for key in getattr(kind, "_telling", ())}
+
+
+def kinds(hint: Any) -> tuple[Any, ...]:
+    """Return the types of a union, or those that share a base which tells them by constants."""
+    if typing.get_origin(hint) in (typing.Union, types.UnionType):
+        return typing.get_args(hint)
+    return tuple(hint.__subclasses__()) if "_telling" in getattr(hint, "__dict__", ()) else ()
 
 
 @st.composite
@@ -222,9 +238,7 @@ def _changed_item(draw: DrawFn, hint: Any, value: list[Any], name: str, wrong: b
 
 def _fitting(hint: Any, value: Any) -> Any:
     """Return the member of a union that a value is of, or the union where it is of none."""
-    if typing.get_origin(hint) not in (typing.Union, types.UnionType):
-        return hint
-    for each in typing.get_args(hint):
+    for each in kinds(hint):
         kind = typing.get_origin(each) or each
         if kind is Literal:
             continue
@@ -232,7 +246,9 @@ def _fitting(hint: Any, value: Any) -> Any:
             if isinstance(value, dict) and kind.tag in value:
                 return each
         elif isinstance(kind, type) and issubclass(kind, Part):
-            if isinstance(value, dict):
+            if isinstance(value, dict) and all(
+                value.get(key) == constant for key, constant in told_by(kind).items()
+            ):
                 return each
         elif (kind is tuple and isinstance(value, list)) or (
             kind is float and type(value) in (int, float)

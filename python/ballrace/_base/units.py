@@ -112,7 +112,7 @@ def in_unit(
     Raises
     ------
     SceneError
-        A unit is none of those above, or a velocity is to become an acceleration.
+        A unit is none of those above, a velocity is to become an acceleration, or numbers are too large.
     """
     unit, wanted = canonical(unit), canonical(wanted)
     known = ACCELERATIONS | VELOCITIES
@@ -122,7 +122,12 @@ def in_unit(
         raise SceneError("unit", repr(unit), _remedy(unit))
     scale = known[unit] / known[wanted]
     if (unit in ACCELERATIONS) == (wanted in ACCELERATIONS):
-        return x * scale
+        with np.errstate(over="ignore"):
+            found = x * scale
+        if np.isinf(found).any() and not np.isinf(x).any():
+            allowed = f"numbers that are finite in {wanted}, too"
+            raise SceneError("x", f"{np.nanmax(np.abs(x)):g} {unit}", allowed)
+        return found
     if unit in VELOCITIES:
         raise SceneError("unit", repr(wanted), f"a velocity, as the record in {unit} is one")
     return _integrated(x, fs, band) * scale

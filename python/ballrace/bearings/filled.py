@@ -107,7 +107,7 @@ def _grease(rows: tuple[Row, ...]) -> SqueezeFilm:
     """Return the squeeze film of starved grease, whose damping goes with the area of the balls."""
     size = sum(row.ball_diameter for row in rows) / len(rows) / _OF_6205
     film = SqueezeFilm()
-    return replace(film, damping=film.damping * size**2, pull=film.pull * size)
+    return replace(film, damping=film.damping * size * size, pull=film.pull * size)
 
 
 def _probes(structure: Structure | None) -> dict[str, Probe]:

@@ -43,11 +43,12 @@ def without_drift(x: NDArray[np.float64], fs: float, shaft: float) -> NDArray[np
     """
     from scipy.ndimage import median_filter, uniform_filter1d
 
-    turn = min(max(round(fs / shaft), 3), x.size - 1) | 1
+    samples = min(fs / shaft, float(x.size))
+    turn = min(max(round(samples), 3), x.size - 1) | 1
     # Beyond its ends a record goes on as it came.
     longer = np.pad(x, turn, mode="reflect", reflect_type="odd")
     drift = median_filter(longer, turn, mode="nearest")
-    width = max(round(_SMOOTHED * fs / shaft), 1)
+    width = max(round(_SMOOTHED * samples), 1)
     smooth = uniform_filter1d(uniform_filter1d(drift, width, mode="nearest"), width, mode="nearest")
     apart = np.abs(drift - smooth)
     at_step = apart > _STEP * float(np.median(apart))

@@ -245,7 +245,7 @@ def rating_life(
         reference=_miner([(state.share, state.reference) for state in states]),
         one_position=_miner([(state.share, state.one_position) for state in states]),
         equivalent_load=equivalent,
-        basic=1e6 * (value / equivalent) ** 3 if equivalent else None,
+        basic=_basic(value, equivalent) if equivalent else None,
         speed=relative_speed(healthy),
         modified=_modified(states),
         factor=hardest.factor,
@@ -337,6 +337,14 @@ def _miner(lives: list[tuple[float, float]]) -> float:
     """Return the life of shares of the turns, each with its own life."""
     damage = sum(share / life for share, life in lives)
     return 1.0 / damage if damage > 0.0 else math.inf
+
+
+def _basic(rating: float, load: float) -> float:
+    """Return L₁₀; infinite under a load so small that no number has its life."""
+    try:
+        return 1e6 * (rating / load) ** 3
+    except OverflowError:
+        return math.inf
 
 
 def _modified(states: list[_State]) -> float | None:

@@ -143,7 +143,7 @@ def _take(path: Path, data: dict[str, Any], samples: Samples, reading: Reading) 
     if x.size != data["num_pts"] or x.size < 2:
         raise FileError(str(path), f"damaged: {x.size} numbers where {data['num_pts']} should be")
     exact = _EXACT.search(data["id5"])
-    fs = float(exact["fs"]) if exact else _rate(path, data, reading)
+    fs = _number(path, exact["fs"]) if exact else _rate(path, data, reading)
     rest = samples
     if samples.columns and (fs, x.size) != (samples.fs, samples.n_samples):
         alike = [one for one in samples.others if (one.fs, one.n_samples) == (fs, x.size)]
@@ -158,7 +158,15 @@ def _take(path: Path, data: dict[str, Any], samples: Samples, reading: Reading) 
     unit = data["ordinate_axis_units_lab"].strip()
     rest.columns[name], rest.fs = x, fs
     rest.units[name] = "" if unit == "NONE" else canonical(unit)
-    rest.shaft = float(exact["shaft"]) if exact and exact["shaft"] else None
+    rest.shaft = _number(path, exact["shaft"]) if exact and exact["shaft"] else None
+
+
+def _number(path: Path, text: str) -> float:
+    """Return a number that a line of text has."""
+    try:
+        return float(text)
+    except ValueError:
+        raise FileError(str(path), f"damaged: {text} Hz is no number") from None
 
 
 def _rate(path: Path, data: dict[str, Any], reading: Reading) -> float | None:
