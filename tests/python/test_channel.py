@@ -104,6 +104,13 @@ def test_what_does_not_fit_is_refused_by_name() -> None:
     assert RECORD.channel("b").channel("b").channel() is not None
 
 
+def test_numbers_too_large_for_a_unit_are_refused() -> None:
+    loud = br.Channel(x=np.array([0.0, 1e308]), fs=FS, unit="g")
+    assert loud.to("g").x.max() == pytest.approx(1e308)
+    with pytest.raises(br.SceneError, match=r"x = 1e\+308 g: numbers that are finite in m/s\^2"):
+        loud.to("m/s^2")
+
+
 def test_a_name_of_a_column_is_text() -> None:
     names: Any = ["a"], ("a",), 3, {"a": 1}
     for name in names:

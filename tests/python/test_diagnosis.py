@@ -748,3 +748,15 @@ def test_severity_is_that_of_a_tone_and_blows() -> None:
     assert white is not None
     assert white.kurtosis == pytest.approx(3.0, abs=0.2)
     assert white.velocity is None
+
+
+@pytest.mark.parametrize("rpm", [1e-10, 1e-300])
+def test_a_turn_far_longer_than_the_record_leaves_all_open(rpm: float) -> None:
+    found = br.diagnose(np.random.default_rng(0).normal(size=5000), "6205", rpm, fs=5000.0)
+    assert found.verdict == "undecided"
+    assert "turns of the shaft" in found.why
+
+
+def test_a_speed_that_is_none_in_hertz_is_refused() -> None:
+    with pytest.raises(br.SceneError, match="speed_rpm = 1e-322"):
+        br.diagnose(np.ones(5000), "6205", 1e-322, fs=5000.0)

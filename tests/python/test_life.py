@@ -112,6 +112,13 @@ def test_defects_and_speeds() -> None:
     assert life.hours(125e6) == pytest.approx(125e6 / 1500.0 / 60.0)
 
 
+@pytest.mark.filterwarnings("ignore:loads.radial.force")
+def test_under_next_to_no_load_it_lasts_for_ever() -> None:
+    """Truth: the formula's limit; the cube of the ratio has no number."""
+    scene = br.bearing("6205", radial_load=5.5e-279, speed_rpm=1800.0)
+    assert br.rating_life(scene).basic == math.inf
+
+
 def test_bad_arguments_are_named() -> None:
     for rating in (0.0, -1.0, math.nan, math.inf):
         with pytest.raises(br.SceneError, match="rating"):

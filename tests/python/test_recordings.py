@@ -135,6 +135,14 @@ def test_plain_programs_read_what_is_written(record: br.Recording, tmp_path: Pat
     assert first["abscissa_inc"] == pytest.approx(1.0 / 51_200.0, rel=1e-5)
 
 
+def test_a_rate_that_is_no_number_is_damage(record: br.Recording, tmp_path: Path) -> None:
+    pytest.importorskip("pyuff")
+    path = record_as(record, tmp_path / "a.uff")
+    path.write_bytes(path.read_bytes().replace(b"51200.0", b"512.0.0"))
+    with pytest.raises(br.FileError, match=r"damaged: 512\.0\.0 Hz is no number"):
+        br.read(path)
+
+
 def record_as(record: br.Recording, path: Path, columns: dict[str, str] | None = None) -> Path:
     record.write(path, columns)
     return path

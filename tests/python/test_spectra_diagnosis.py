@@ -247,3 +247,10 @@ def test_bad_arguments_are_refused() -> None:
         with pytest.raises(br.SceneError) as caught:
             call()
         assert caught.value.path == name
+
+
+def test_the_faintest_signal_has_a_kurtogram() -> None:
+    """Truth: limits; one impulse of the least number is as impulsive in all bands as a large one."""
+    x = np.zeros(4096)
+    x[7] = 5e-324
+    assert spectra.kurtogram(x, 12_000.0).best[1] > 0.0

@@ -99,9 +99,10 @@ def nominal_rate(channel: Channel, speed_rpm: float | None) -> float:
         if not channel.shaft:
             raise SceneError("speed_rpm", "None", "the speed [1/min]: the record does not know it")
         return abs(channel.shaft)
-    if not 0.0 < abs(real(speed_rpm)) < math.inf:
+    rate = abs(real(speed_rpm)) / 60.0
+    if not 0.0 < rate < math.inf:
         raise SceneError("speed_rpm", repr(speed_rpm), "a speed of the inner ring [1/min], not 0")
-    return abs(real(speed_rpm)) / 60.0
+    return rate
 
 
 def known_within(channel: Channel, *, given: bool, speed_within: float | None) -> float | None:

@@ -281,7 +281,7 @@ def _has_power(
     until = np.append(0.0, np.cumsum(power))
     edges = [np.rint((place + side) / counts * power.size).astype(int) for side in (0, 1)]
     own = (until[edges[1]] - until[edges[0]]) / (until[-1] or 1.0)
-    passed = np.array([np.mean(np.abs(z / largest) ** 2) for _, bands in rows for z in bands])
+    passed = np.array([np.mean((np.abs(z) / largest) ** 2) for _, bands in rows for z in bands])
     found: NDArray[np.bool_] = (own > _FAINT / counts) & (own > _OWN * passed / (passed[0] or 1.0))
     return found
 
