@@ -226,12 +226,13 @@ fn outside<'a>(path: &str, text: &'a str, packed: &[&str]) -> Vec<String> {
 #[test]
 fn documentation_names_no_file_outside_of_the_package() {
     let manifest = read("Cargo.toml");
-    let include = manifest
-        .lines()
-        .find_map(|line| line.strip_prefix("include = ["))
-        .unwrap();
-    let packed: Vec<&str> = include.trim_end_matches(']').split(", ").collect();
-    let packed: Vec<&str> = packed.iter().map(|name| name.trim_matches('"')).collect();
+    // On one line, or on several in the manifest of a package.
+    let (_, include) = manifest.split_once("\ninclude = [").unwrap();
+    let (names, _) = include.split_once(']').unwrap();
+    let packed: Vec<&str> = names
+        .split(',')
+        .map(|name| name.trim().trim_matches('"'))
+        .collect();
     // Tests and private notes may name what only the repository has; users read the documentation of what is public.
     let sources = all()
         .into_iter()
