@@ -97,9 +97,13 @@ def simulated(
     return np.concatenate(inputs), np.array(classes), np.array(bearings)
 
 
-def trained(folder: Path, false_alarm: float | None) -> br.learn.Diagnoser:
+def trained(
+    X: NDArray[np.float32],
+    y: NDArray[np.str_],
+    bearings: NDArray[np.str_],
+    false_alarm: float | None,
+) -> br.learn.Diagnoser:
     """Return the networks whose weight decay does best on bearings that they have not seen."""
-    X, y, bearings = simulated(folder, "train")
     found = []
     for decay in DECAYS:
         network = make_pipeline(
@@ -134,10 +138,10 @@ def main() -> None:
     parser.add_argument("folder", type=Path, help="set of ballrace.learn.corpus")
     options = parser.parse_args()
     warnings.simplefilter("ignore")
-    X, truth, _ = simulated(options.folder, "test")
+    learnt, (X, truth, _) = (simulated(options.folder, split) for split in ("train", "test"))
     records = measured(TURNS, FS)
     for false_alarm in (0.05, None):
-        model = trained(options.folder, false_alarm)
+        model = trained(*learnt, false_alarm)
         share = balanced(truth.tolist(), model.predict(X).tolist())
         print(
             f"\nFalse alarms bounded by {false_alarm}: windows of training bearings not seen "

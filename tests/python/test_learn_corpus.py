@@ -151,7 +151,7 @@ def test_a_folder_of_others_is_refused(
 
 @pytest.mark.long
 def test_ten_minutes_of_it(tmp_path: Path) -> None:
-    """What two cores make in so long: all records met their damage or are healthy, and none is still."""
+    """Fifteen bearings, ten minutes of two cores: all records met their damage or are healthy, none is still."""
     options: dict[str, Any] = {"bearings": 15, "seconds": 4.0, "records": 4, "progress": False}
     found = make_corpus(tmp_path / "corpus", **options)
     assert sum(found.metadata["n_samples"].to_list()) / 25_600.0 == pytest.approx(240.0, rel=0.05)
