@@ -19,6 +19,7 @@ surfaces         texture as a recipe has it, and waves of 5 to 200 nm
 machine          pedestals as a recipe has them; the sensor on it, or at the end of a path, as heavy as goes with
                  the bearing's size, 0 to 26 dB weaker, mostly less than 7 dB: sensors sit near what they watch
 other vibration  noise, tones and modulation of ``br.measuring.random_chains``, the noise up to 20 dB quieter
+test rigs        every third record is as of one: the sensor on the pedestal, the noise 20 to 40 dB quieter
 logger           12, 20, 25.6 or 51.2 kHz; an eighth with a lower band, a twelfth clipped
 ===============  ==================================================================================================
 """

@@ -52,6 +52,8 @@ WEAKER, NEAR = 26.0, 0.2
 """Attenuation of the farthest sensor [dB]; share of records of a sensor on the pedestal itself."""
 QUIETER = 20.0
 """How much less noise of the motor there is at most on a bearing that stands apart from it [dB]."""
+RIG = 3
+"""Every so manieth record is as of a test rig: its sensor is on the pedestal, and its noise lower by as much again."""
 RATES = (12_000.0, 20_000.0, 25_600.0, 51_200.0)
 NARROWED, CLIPPED = 1 / 8, 1 / 12
 COLUMNS = ("seat.fx", "seat.fy", "seat.fz", "housing.sensor.ay")
@@ -87,11 +89,12 @@ def recorded(of: Case, x: NDArray[np.float64], time_: int) -> Recorded:
     rng = np.random.default_rng([68, of.number, time_])
     (chain,) = br.measuring.random_chains(1, seed=int(rng.integers(1 << 30))).values()
     near, weakened, narrowed, clipped, quiet = (float(rng.random()) for _ in range(5))
-    chain = replace(chain, machine=quieter(QUIETER * quiet, chain.machine))
+    of_rig = time_ % RIG == RIG - 1
+    chain = replace(chain, machine=quieter(QUIETER * (quiet + of_rig), chain.machine))
     fs = float(rng.choice(RATES))
     flat = log_uniform(rng, (1500.0, 0.4 * fs)) if narrowed < NARROWED else None
     of_record: dict[str, Any] = {"fs": FS, "shaft": of.rpm / 60.0, "seed": 100 * of.number + time_}
-    if near < NEAR:
+    if of_rig or near < NEAR:
         weaker, signal = 0.0, x[:, 3]
         chain = replace(chain, path=None, direction=None)
     else:

@@ -116,15 +116,15 @@ def test_events_that_are_too_close_have_no_width(part: Race) -> None:
     assert "below a tenth of a ball's diameter (0.79 mm)" in width.why
 
 
-def test_no_width_is_below_nothing() -> None:
-    """Truth: limits. Some spalls of an outer race are narrower than the arc, by more than the least arc."""
-    low, value, high = bridged("outer_race")
-    assert low < -0.1
-    width = width_of_arc("outer_race", 0.11 * BALL, BALL, "")
+@pytest.mark.parametrize("part", RACES)
+def test_no_width_is_below_nothing(part: Race) -> None:
+    """Truth: limits. Spalls may be narrower than the arc, but by less than the least arc that is a width."""
+    low, value, high = bridged(part)
+    width = width_of_arc(part, 0.1001 * BALL, BALL, "")
     assert width.interval is not None
-    assert width.interval[0] == 0.0
-    assert width.interval[1] == pytest.approx((0.11 + high) * BALL)
-    assert width.value == pytest.approx((0.11 + value) * BALL)
+    assert width.interval == pytest.approx(((0.1001 + low) * BALL, (0.1001 + high) * BALL))
+    assert width.interval[0] > 0.0
+    assert width.value == pytest.approx((0.1001 + value) * BALL)
 
 
 def at_speeds(arc_of: Callable[[float], float]) -> list[br.diagnosis.Diagnosis]:
