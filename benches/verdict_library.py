@@ -53,7 +53,7 @@ WEAKER, NEAR = 26.0, 0.2
 QUIETER = 20.0
 """How much less noise of the motor there is at most on a bearing that stands apart from it [dB]."""
 RIG = 3
-"""Every so manieth record is as of a test rig: its sensor is on the pedestal, and its noise lower by as much again."""
+"""Every third record is as of a test rig: the sensor is on the pedestal, and the noise lower by as much again."""
 RATES = (12_000.0, 20_000.0, 25_600.0, 51_200.0)
 NARROWED, CLIPPED = 1 / 8, 1 / 12
 COLUMNS = ("seat.fx", "seat.fy", "seat.fz", "housing.sensor.ay")

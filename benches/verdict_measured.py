@@ -9,8 +9,8 @@ Technology (4), University of Electronic Science and Technology of China (16). E
 without it, at its nominal and at its true speed, and by
 
 - cepstrum prewhitening over the whole band, the squared envelope's spectrum, and three harmonics with sidebands
-  beside those of 400 orders that no part has: named where z > 3.5 (P. Borghesani et al., Mech. Syst. Signal Process. 36
-  (2013) 370);
+  beside those of 400 orders that no part has: named where z > 3.5 (P. Borghesani et al., Mech. Syst. Signal
+  Process. 36 (2013) 370);
 - the same lines of the squared envelope in the band of the kurtogram (J. Antoni, Mech. Syst. Signal Process. 21
   (2007) 108);
 - the two thresholds of the example *Rolling Element Bearing Fault Diagnosis* of MATLAB's Predictive Maintenance

@@ -109,6 +109,8 @@ def test_numbers_too_large_for_a_unit_are_refused() -> None:
     assert loud.to("g").x.max() == pytest.approx(1e308)
     with pytest.raises(br.SceneError, match=r"x = 1e\+308 g: numbers that are finite in m/s\^2"):
         loud.to("m/s^2")
+    with pytest.raises(br.SceneError, match=r"x = 1e\+308 g: numbers that are finite in mm/s"):
+        br.Channel(x=np.full(256, 1e308), fs=FS, unit="g").to("mm/s")
 
 
 def test_a_name_of_a_column_is_text() -> None:

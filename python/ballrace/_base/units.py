@@ -121,16 +121,16 @@ def in_unit(
     if unit not in known:
         raise SceneError("unit", repr(unit), _remedy(unit))
     scale = known[unit] / known[wanted]
-    if (unit in ACCELERATIONS) == (wanted in ACCELERATIONS):
-        with np.errstate(over="ignore"):
-            found = x * scale
-        if np.isinf(found).any() and not np.isinf(x).any():
-            allowed = f"numbers that are finite in {wanted}, too"
-            raise SceneError("x", f"{np.nanmax(np.abs(x)):g} {unit}", allowed)
-        return found
-    if unit in VELOCITIES:
+    if unit in VELOCITIES and wanted in ACCELERATIONS:
         raise SceneError("unit", repr(wanted), f"a velocity, as the record in {unit} is one")
-    return _integrated(x, fs, band) * scale
+    with np.errstate(over="ignore", invalid="ignore"):
+        found = (
+            _integrated(x, fs, band) if unit in ACCELERATIONS and wanted in VELOCITIES else x
+        ) * scale
+    if np.isfinite(x).all() and not np.isfinite(found).all():
+        allowed = f"numbers that are finite in {wanted}, too"
+        raise SceneError("x", f"{np.abs(x).max():g} {unit}", allowed)
+    return found
 
 
 def _remedy(unit: str) -> str:
