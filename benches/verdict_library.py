@@ -87,7 +87,10 @@ class Recorded:
 def recorded(of: Case, x: NDArray[np.float64], time_: int) -> Recorded:
     """Record a run on a machine by chance."""
     rng = np.random.default_rng([68, of.number, time_])
-    (chain,) = br.measuring.random_chains(1, seed=int(rng.integers(1 << 30))).values()
+    chains = br.measuring.random_chains(
+        1, seed=int(rng.integers(1 << 30)), outside_diameter=of.bearing.outside_diameter
+    )
+    (chain,) = chains.values()
     near, weakened, narrowed, clipped, quiet = (float(rng.random()) for _ in range(5))
     of_rig = time_ % RIG == RIG - 1
     chain = replace(chain, machine=quieter(QUIETER * (quiet + of_rig), chain.machine))
@@ -99,7 +102,7 @@ def recorded(of: Case, x: NDArray[np.float64], time_: int) -> Recorded:
         chain = replace(chain, path=None, direction=None)
     else:
         weaker, signal = WEAKER * weakened**2, x[:, :3]
-        chain = replace(chain, path=path_of(of.bearing, weaker, chain.path))
+        chain = replace(chain, path=weakened_by(weaker, chain.path))
     logger = replace(chain.logger, fs=fs, bandwidth=flat)
     silent = replace(chain, machine=None, sensor=None, logger=replace(logger, bits=None))
     own = br.measuring.chain.measured(signal, silent, **of_record).x
@@ -119,14 +122,9 @@ def quieter(decibels: float, machine: br.measuring.Machine) -> br.measuring.Mach
     return replace(machine, noise_density=(f, np.multiply(density, 10.0 ** (-decibels / 10.0))))
 
 
-def path_of(bearing: br.Bearing, decibels: float, path: br.Structure) -> br.Structure:
-    """Return a path whose sensor shows so much less, with the masses that go with a size of bearing.
-
-    Walls of a pedestal n times as large ring at frequencies n times lower, with n³ times the mass;
-    at like frequencies with n² times. Drawn ones are like those of a 6205.
-    """
-    size = bearing.outside_diameter / br.catalogue["6205"].outside_diameter
-    more = 10.0 ** (decibels / 20.0) * size**2
+def weakened_by(decibels: float, path: br.Structure) -> br.Structure:
+    """Return a path whose sensor shows so much less."""
+    more = 10.0 ** (decibels / 20.0)
     return replace(path, modes=tuple(replace(mode, mass=mode.mass * more) for mode in path.modes))
 
 

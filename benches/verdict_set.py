@@ -24,13 +24,13 @@ import warnings
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 import ballrace as br
 from ballrace.learn.drawn import log_uniform
-from verdict_cases import ACCUSED, waves
+from verdict_cases import ACCUSED, takes, waves
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -116,11 +116,16 @@ def case(number: int, seed: int, name: str) -> Case:
     clearance = str(rng.choice(["C2", "CN", "C3"]))
     start = float(rng.uniform(0.0, 2.0 * math.pi))
     radial = load * bearing.static_rating
-    scene = br.bearing(
-        bearing, radial_load=radial, axial_load=thrust * radial, speed_rpm=rpm, clearance=clearance,
-        defects=defect(part, bearing, width, edge, length),
-        texture=texture(rng) if surface == "textured" else None,
-    )  # fmt: skip
+    options: dict[str, Any] = {
+        "radial_load": radial, "axial_load": thrust * radial, "speed_rpm": rpm, "clearance": clearance
+    }  # fmt: skip
+    damage = defect(part, bearing, width, edge, length)
+    while damage and not takes(br.bearing(bearing, **options), damage, "length"):
+        # It would reach beyond the race's shoulder.
+        length *= 0.85
+        damage = defect(part, bearing, width, edge, length)
+    options["texture"] = texture(rng) if surface == "textured" else None
+    scene = br.bearing(bearing, defects=damage, **options)
     row = replace(scene.rows[0], start_angle=start)
     if surface == "waved":
         row = replace(row, outer_waviness=waves(rng), inner_waviness=waves(rng))
@@ -165,7 +170,11 @@ def recorded(of: Case, x: NDArray[np.float64], snr_db: float) -> br.Channel:
     """Return a record of a run in noise so far below it [dB]."""
     rng = np.random.default_rng([of.seed + 100, of.number, round(snr_db)])
     fs = float(rng.choice([25_600.0, 51_200.0]))
-    path = br.measuring.random_housing(seed=int(rng.integers(1 << 30)), band=(800.0, 0.3 * FS))
+    path = br.measuring.random_housing(
+        seed=int(rng.integers(1 << 30)),
+        band=(800.0, 0.3 * FS),
+        outside_diameter=of.bearing.outside_diameter,
+    )
     logger = br.measuring.Logger(fs=fs) if fs < FS else None
     measured = br.measure(x, fs=FS, path=path, logger=logger).x
     noise = measured.std() * 10.0 ** (-snr_db / 20.0)

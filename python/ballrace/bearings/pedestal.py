@@ -13,9 +13,9 @@ from ..scene import Mode, Structure
 if TYPE_CHECKING:
     from ..scene import Compliance
 
-__all__ = ["chosen_housing", "pedestal"]
+__all__ = ["OF_6205", "chosen_housing", "pedestal"]
 
-_DIAMETER = 52e-3
+OF_6205 = 52e-3
 """Outside diameter of the bearing that the table is for [m]."""
 
 _HIGHEST = 15_000.0
@@ -54,7 +54,7 @@ def pedestal(outside_diameter: float, count: float = 1.0) -> Structure:
     Sizes are an assumption: bodies of one shape, whose masses grow with the cube of the diameter and whose walls'
     frequencies fall with it, on bolts and a plate whose frequencies stay.
     """
-    size = outside_diameter / _DIAMETER
+    size = outside_diameter / OF_6205
     mass = size**3 * count
     walls = [(line[0] / size, *line[1:]) for line in _WALLS]
     modes = [_mode(each, mass) for each in (*_FEET, *walls) if each[0] <= _HIGHEST]

@@ -77,7 +77,9 @@ class Plan:
     def chain(self, number: int) -> tuple[str, Chain]:
         """Return the measuring chain of a bearing, and whether its sensor is near or far."""
         rng = np.random.default_rng([self.seed, 4, number])
-        (drawn,) = random_chains(1, seed=int(rng.integers(2**31))).values()
+        size = self.drawing(number).recipe.made.outside_diameter
+        chains = random_chains(1, seed=int(rng.integers(2**31)), outside_diameter=size)
+        (drawn,) = chains.values()
         near = rng.random() < _NEAR
         logger = replace(drawn.logger or Logger(), fs=self.fs)
         chain = replace(drawn, path=None if near else drawn.path, logger=logger)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .._base.numbers import counted
+from ..bearings.pedestal import OF_6205
 from ..channel import Recorded
 from ..errors import SceneError
 from .chain import Chain
@@ -89,7 +90,9 @@ def random_machine(seed: int, *, background: Recorded | None = None) -> Machine:
     )
 
 
-def random_chains(n: int, *, seed: int, background: Recorded | None = None) -> dict[str, Chain]:
+def random_chains(
+    n: int, *, seed: int, background: Recorded | None = None, outside_diameter: float = OF_6205
+) -> dict[str, Chain]:
     """Return random measuring chains, each of another machine.
 
     Each has a sensor within 30° of the vertical with a mounted resonance of 15 to 40 kHz, a path of
@@ -104,6 +107,8 @@ def random_chains(n: int, *, seed: int, background: Recorded | None = None) -> d
         The same seed gives the same chains; a larger ``n`` adds further ones.
     background : Signals, Measurement, Recording or Channel, optional
         Record of a healthy machine [m/s²], whose noise floor they have; by default that of a measured motor.
+    outside_diameter : float
+        Outside diameter of the bearing [m], for the masses of :func:`random_housing`; by default a 6205's.
 
     Raises
     ------
@@ -117,16 +122,16 @@ def random_chains(n: int, *, seed: int, background: Recorded | None = None) -> d
     (['machine 0', 'machine 1', 'machine 2'], ('path', 'machine', 'sensor', 'logger'))
     """
     n, seed = counted("n", n, 1), counted("seed", seed, 0)
-    return {f"machine {k}": _chain([seed, k], background) for k in range(n)}
+    return {f"machine {k}": _chain([seed, k], background, outside_diameter) for k in range(n)}
 
 
-def _chain(key: list[int], background: Recorded | None) -> Chain:
+def _chain(key: list[int], background: Recorded | None, outside_diameter: float) -> Chain:
     rng = np.random.default_rng(key)
     path, machine = (int(number) for number in rng.integers(0, 2**31, 2))
     aside = rng.uniform(-math.pi / 6.0, math.pi / 6.0)
     return Chain(
         direction=(math.sin(aside), math.cos(aside), 0.0),
-        path=random_housing(path, band=_BAND),
+        path=random_housing(path, band=_BAND, outside_diameter=outside_diameter),
         machine=random_machine(machine, background=background),
         sensor=Sensor(resonance=float(log_uniform(rng, _RESONANCE, 1)[0])),
         logger=Logger(bits=int(rng.choice([12, 16, 24]))),

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .._base.numbers import counted, positive
+from ..bearings.pedestal import OF_6205
 from ..errors import SceneError
 from ..scene import Mode, Structure
 from .checks import finite_row, rising
@@ -178,6 +179,7 @@ def random_housing(
     modes: int = 5,
     band: tuple[float, float] = (800.0, 12_000.0),
     damping: tuple[float, float] = (0.01, 0.05),
+    outside_diameter: float = OF_6205,
 ) -> Structure:
     """Return a path from the seat to a sensor elsewhere on a machine, by modes drawn at random, for data sets.
 
@@ -195,6 +197,9 @@ def random_housing(
         Lowest and highest frequency of a mode [Hz].
     damping : tuple of two floats
         Lowest and highest damping ratio.
+    outside_diameter : float
+        Outside diameter of the bearing [m], by default a 6205's. Walls n times as large ring at frequencies n
+        times lower, with n³ times the mass; at like frequencies with n² times.
 
     Raises
     ------
@@ -207,6 +212,7 @@ def random_housing(
     (True, 5)
     """
     modes = counted("modes", modes, 1)
+    mass = _MASS * (positive("outside_diameter", outside_diameter, "m") / OF_6205) ** 2
     for name, pair in (("band", band), ("damping", damping)):
         if not 0.0 < pair[0] <= pair[1] < math.inf:
             raise SceneError(name, str(pair), "two rising numbers above 0")
@@ -221,7 +227,7 @@ def random_housing(
     )
     return Structure(
         modes=tuple(
-            Mode(frequency=f, damping=d, mass=_MASS * 1e3 / f, seat=tuple(phi), sensors={"sensor": tuple(psi)})
+            Mode(frequency=f, damping=d, mass=mass * 1e3 / f, seat=tuple(phi), sensors={"sensor": tuple(psi)})
             for f, d, phi, psi in drawn
         )
     )  # fmt: skip
