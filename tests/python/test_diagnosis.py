@@ -312,7 +312,7 @@ def weaker(one: Evidence, acceleration: float) -> Evidence:
 
 
 def test_likelihood_decides_what_is_weak() -> None:
-    """Weak blows that carry the vibration at their rate are damage at odds of ten to one, not of tiny bearings."""
+    """Weak blows that carry the vibration at their rate are damage at ten to one, in sizes of the library."""
     x = noise(blows(ORDERS.bpfi, duration=4.0), 0.05)
     evidence = dict(judged(x / x.std(), unit="m/s^2").evidence)
     diameter = br.catalogue["6205"].pitch_diameter
@@ -335,6 +335,12 @@ def test_likelihood_decides_what_is_weak() -> None:
         inner(0.05, size=replace(size, diameter=0.015)),
     )  # fmt: skip
     assert {found.verdict for found in left} == {"undecided"}
+    large = {each: replace(size, diameter=each) for each in (0.12, 0.13)}
+    named = {
+        each: inner(0.05, weaker(own, 0.7e-3 * math.pi * SHAFT / each), of).parts
+        for each, of in large.items()
+    }
+    assert named == {0.12: ("inner_race",), 0.13: ()}
     doubted = replace(own, probability=0.02, ratio=0.05)
     assert decide(evidence | {"inner_race": doubted}, size=size).verdict == "undecided"
 
