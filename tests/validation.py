@@ -327,25 +327,27 @@ measured records that are at hand, which therefore forecast nothing; `benches/re
 SET = """The *set* is 216 records of four bearings that are not in the library (6002, 6007, 6012, 6200;
 seed 48), healthy (smooth, wavy, textured races) and damaged (spalls of 0.02 to 0.45 ball diameters;
 damaged balls spin freely), of 40 turns, on pedestals with grease and through random housings
-(`python benches/verdict_set.py --bearings 4`; `python tests/validation.py --set`). They were judged
-once by the rules of today: no healthy record is called damaged at any rate, and no sound part named;
-107 healthy ones are left undecided, one is called healthy. Damage that is not named is undecided, two
-thirds of it with certain lines: too weak, too small a part of the vibration, or as of unloaded
-balls that fall. At the exact speed as much is named, but two records are called healthy. z alone
+(`python benches/verdict_set.py --bearings 4`; `python tests/validation.py --set`). No healthy record is
+called damaged at any rate, and no sound part named; 107 healthy ones are left undecided, one is called
+healthy. Damage that is not named is undecided: too weak, too small a part of the vibration, or as of
+unloaded balls that fall. At the exact speed as much is named, but one record is called healthy. z alone
 does not distinguish simulated records, since loaded healthy bearings have lines too; the likelihood
-ratio uses the record's unit.
+ratio uses the record's unit. They were judged once by the rules of the library as it was (62 of 108
+named), and once more after paths had become as heavy as goes with the bearing's size (70).
+
+Two fresh sets of two bearings each were judged once by the rules of the library with records of test
+rigs: 57 (16009, 6322), 13 of whose 54 healthy records were called damaged, all but one of them of the
+6322 at the end of paths as light as a 6205's; with paths as heavy as its size two were, of one run, by
+a ratio beyond the sizes of the library, which decides no more; and, with such paths, 56 (61903, 6222),
+of whose 54 healthy records one is called damaged (a 6222, whose lines are just above the limit of
+strength), of 31 of 54 damaged ones the part named, and of two of them, records of one slow 6222, the
+outer race for the inner one. By the final rule 57 has no healthy record called damaged, and 43 of 54
+named. None of either is called healthy that is damaged.
 
 Sets of older rules, libraries and machines were judged once each, at 1 %: of 216 healthy records 1
 (seed 49), 9 (50), 7 (51), 0 (52), 6 (53) and 0 (54) were called damaged. 50 showed that unloaded
 balls of slow bearings fall, 51 that the limit of strength was too low, 53 that bearings below 18 mm
 are shaken more; 52 and 54 judged what came of it.
-
-The first four bearings of seed 55 were judged twice with the library anew: of 108 healthy records
-none is called damaged and 5 healthy; of 108 damaged ones the part is named of 45 (15 of 36 outer
-races, 17 inner ones, 13 balls; 5 of these by the ratio), of one a sound part (of 2 at the exact
-speed), and none is called healthy. Area under the ROC of the ratio 0.92, 0.93, 0.90. At first the
-ratio decided at any strength, which named 50, but 4 of 100 healthy runs with 2 % of noise, too; now
-above half the limits of strength, and none of these.
 
 ![detection over the width of the spall, and receiver operating characteristic](verdicts.svg)
 """
