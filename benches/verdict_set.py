@@ -74,7 +74,7 @@ anew since; it has bearings of all sets but 48 and 53 to 57. The first four of 5
 and after the likelihood ratio was kept to what is above half the limits of strength; the first four of 48, on the
 machines of today, once after that. With records of test rigs in the library the first two of 57 were judged once:
 13 of 54 healthy records were accused, which showed that paths were as light for a 6322 as for a 6205, and that a
-ratio decided beyond the library's sizes. 56 was judged once after the first of these, and all three after both.
+ratio decided beyond the library's sizes. 56 was judged after the first of these, and all three after both.
 """
 
 SURFACES = ("smooth", "waved", "textured")

@@ -21,7 +21,7 @@ import ballrace as br
 from ballrace.diagnosis.fit import fit
 from ballrace.diagnosis.likelihood import numbers_of, with_ratios
 from ballrace.diagnosis.null import ACCUSED, probability
-from ballrace.diagnosis.verdict import UNLIKELY
+from ballrace.diagnosis.verdict import SIZES, UNLIKELY
 from ballrace.diagnosis.width import are_clear, width_of_arc
 from verdict_fit import bridged, damaged, judged, library, ratios, regression, strength
 
@@ -329,6 +329,12 @@ def test_damage_that_would_stand_out_does() -> None:
           f"stand out | {found[1.0]} of 20 found | with a third of that {found[0.3]}")  # fmt: skip
     assert found[1.0] >= 16
     assert found[0.3] <= 16
+
+
+def test_the_ratio_decides_for_the_sizes_of_the_library() -> None:
+    """Golden: 6000 to 6316."""
+    sizes = [br.catalogue[name].pitch_diameter for name in np.unique(library()["bearing"]).tolist()]
+    assert (min(sizes), max(sizes)) == pytest.approx(SIZES)
 
 
 def test_a_ratio_favours_what_is_there() -> None:

@@ -112,6 +112,23 @@ def test_of_sixteen_bearings_four_are_for_testing_one_in_each_state() -> None:
         assert sorted(number % 4 for number in chosen) == [0, 1, 2, 3]
 
 
+def test_paths_are_as_heavy_as_goes_with_the_bearing() -> None:
+    """Truth: similarity. At like frequencies masses go with the square of the outside diameter."""
+    plan = Plan(seed=3, seconds=1.0, fs=12_000.0, records=1)
+    masses = {}
+    for number in range(20):
+        name, _ = plan.rows(number)
+        path = plan.chain(number)[1].path
+        if isinstance(path, br.Structure):
+            masses[br.catalogue[name].outside_diameter] = (
+                path.modes[0].mass * path.modes[0].frequency
+            )
+    sizes = np.array(list(masses))
+    assert sizes.max() > 1.5 * sizes.min()
+    at_one_size = np.array(list(masses.values())) / sizes**2
+    assert at_one_size == pytest.approx(np.full(sizes.size, at_one_size[0]))
+
+
 def test_a_bearing_keeps_its_damage_and_changes_load_and_speed() -> None:
     name, rows = Plan(seed=3, seconds=1.0, fs=12_000.0, records=3).rows(5)
     assert name in SIZES

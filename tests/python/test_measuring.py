@@ -408,6 +408,19 @@ def test_random_housings_differ_by_their_seeds() -> None:
         assert all(np.linalg.norm(mode.seat) == pytest.approx(0.005) for mode in housing.modes)
 
 
+def test_walls_around_larger_bearings_are_heavier() -> None:
+    """Truth: similarity. Twice as large they ring at half the frequency with eight times the mass."""
+    small, large = (m.random_housing(1, outside_diameter=size).modes for size in (0.052, 0.104))
+    assert m.random_housing(1).modes == small
+    for one, other in zip(small, large, strict=True):
+        assert other == replace(one, mass=4.0 * one.mass)
+    (chain,) = m.random_chains(1, seed=5, outside_diameter=0.104).values()
+    (usual,) = m.random_chains(1, seed=5).values()
+    assert isinstance(chain.path, br.Structure)
+    assert isinstance(usual.path, br.Structure)
+    assert chain.path.modes[0].mass == pytest.approx(4.0 * usual.path.modes[0].mass)
+
+
 def test_machines_by_chance_repeat_by_their_seeds_and_hold_their_ranges() -> None:
     made = [m.random_machine(seed) for seed in range(30)]
     assert made[3] == m.random_machine(3)
@@ -473,6 +486,8 @@ def test_noise_that_wanders_is_slow_and_leaves_other_numbers_alone() -> None:
         (lambda: m.random_machine(1, background="97.mat"), "background"),  # type: ignore[arg-type]
         (lambda: m.random_machine(1, background=br.Channel(x=np.ones(9), fs=1e3)), "background"),
         (lambda: m.random_chains(0, seed=1), "n"),
+        (lambda: m.random_chains(1, seed=1, outside_diameter=1e200), "outside_diameter"),
+        (lambda: m.random_housing(1, outside_diameter=0.0), "outside_diameter"),
         (lambda: m.Logger(range=0.0), "logger.range"),
         (lambda: m.Logger(bits=1, range=1.0), "logger.bits"),
         (lambda: m.Tacho(pulses=0), "tacho.pulses"),

@@ -123,11 +123,10 @@ def in_unit(
     scale = known[unit] / known[wanted]
     if unit in VELOCITIES and wanted in ACCELERATIONS:
         raise SceneError("unit", repr(wanted), f"a velocity, as the record in {unit} is one")
+    integrates = unit in ACCELERATIONS and wanted in VELOCITIES
     with np.errstate(over="ignore", invalid="ignore"):
-        found = (
-            _integrated(x, fs, band) if unit in ACCELERATIONS and wanted in VELOCITIES else x
-        ) * scale
-    if np.isfinite(x).all() and not np.isfinite(found).all():
+        found = scale * (_integrated(x, fs, band) if integrates else x)
+    if not np.isfinite(found).all() and np.isfinite(x).all():
         allowed = f"numbers that are finite in {wanted}, too"
         raise SceneError("x", f"{np.abs(x).max():g} {unit}", allowed)
     return found

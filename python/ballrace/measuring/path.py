@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._base.numbers import counted, positive
+from .._base.numbers import counted, positive, real
 from ..bearings.pedestal import OF_6205
 from ..errors import SceneError
 from ..scene import Mode, Structure
@@ -169,6 +169,8 @@ def through(
 
 _MASS = 1.32
 """Modal mass at 1 kHz [kg], which falls with the frequency, as of the walls of the pedestal."""
+_SIZES = 1e-3, 10.0
+"""Outside diameters of bearings that are taken [m]."""
 _SEAT, _SENSOR = 0.005, 90.0
 """Shapes at the seat and at the sensor: so small at the seat that the modes do not act back on the ring."""
 
@@ -212,7 +214,11 @@ def random_housing(
     (True, 5)
     """
     modes = counted("modes", modes, 1)
-    mass = _MASS * (positive("outside_diameter", outside_diameter, "m") / OF_6205) ** 2
+    diameter = real(outside_diameter)
+    if not _SIZES[0] <= diameter <= _SIZES[1]:
+        allowed = f"a diameter, {_SIZES[0]:g} to {_SIZES[1]:g} [m]"
+        raise SceneError("outside_diameter", repr(outside_diameter), allowed)
+    mass = _MASS * (diameter / OF_6205) ** 2
     for name, pair in (("band", band), ("damping", damping)):
         if not 0.0 < pair[0] <= pair[1] < math.inf:
             raise SceneError(name, str(pair), "two rising numbers above 0")
