@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from . import _core
 from ._base.arguments import knows
-from ._base.libraries import needed
+from ._base.libraries import needed, pl
 from ._base.numbers import counted, real, real_row
 from ._io.whole import whole
 from .errors import BallraceError, SceneError
@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     import os
     from collections.abc import Iterable, Mapping, Sequence
 
-    import polars as pl
     from numpy.typing import ArrayLike
 
     from .scene import Scene
@@ -168,8 +167,6 @@ class StiffnessTable:
         Columns are the loads by their names [N], ``speed`` [rad/s], and ``kxx``, ``kxy``, …, ``cbb`` in SI units,
         with ``a`` and ``b`` for the tilts about x and y.
         """
-        from ._base.polars import pl
-
         cases, speeds = self.stiffness.shape[:2]
         columns = {name: np.repeat(values, speeds) for name, values in self.loads.items()}
         columns["speed"] = np.tile(self.speeds, cases)

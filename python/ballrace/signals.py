@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from . import _core
 from ._base.html import paragraph, points, waveform
 from ._base.interrupt import interrupted_once
+from ._base.libraries import pl
 from ._base.numbers import read_only
 from ._base.text import printable
 from ._io.files import PARQUET, as_path
@@ -27,7 +28,6 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     import numpy as np
-    import polars as pl
     from numpy.typing import NDArray
 
     from ._core import _Signals
@@ -193,8 +193,6 @@ class Signals(Columns):
     def slices(self) -> pl.DataFrame | None:
         """Forces of single slices, a line each, as asked for by the probes ``slices``; None without them."""
         if isinstance(self._slices, Mapping):
-            from ._base.polars import pl
-
             self._slices = pl.DataFrame(self._slices)
         return self._slices
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from . import _core
 from ._base.html import paragraph, points, table
+from ._base.libraries import pl
 from ._base.numbers import counted
 from .errors import SceneError, SceneWarning
 from .ring_force import passed
@@ -19,8 +20,6 @@ from .scene.scene import checked_scene
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
-
-    import polars as pl
 
     from .ring_force import RingForce
     from .scene import Scene
@@ -189,8 +188,6 @@ class Equilibrium:
 
     def to_polars(self) -> pl.DataFrame:
         """Return a table with a line per ball and the columns ``row``, ``ball``, ``angle``, …."""
-        from ._base.polars import pl
-
         names = ["row", "ball", *_BALL]
         names += [f"{race}_{quantity}" for race in ("outer", "inner") for quantity in _CONTACT]
         return pl.DataFrame({name: getattr(self, name) for name in names})

@@ -1,4 +1,4 @@
-"""plotly, imported where a picture is first drawn: ``from ._plotly import Figure``."""
+"""plotly, or the error that says how to install it; its ``go`` is that of :mod:`ballrace._base.libraries`."""
 
 from __future__ import annotations
 
@@ -8,39 +8,15 @@ from .libraries import needed
 
 needed("plotly", "a picture", extra="plot")
 
-from plotly.colors import sample_colorscale  # noqa: E402 (an error that says how to install it comes first)
-from plotly.graph_objects import (  # noqa: E402
-    Bar,
-    Box,
-    Figure,
-    Frame,
-    Heatmap,
-    Mesh3d,
-    Scatter,
-    Scatter3d,
-    Scatterpolar,
-)
+import plotly.graph_objects as go  # noqa: E402 (an error that says how to install it comes first)
+from plotly.colors import sample_colorscale  # noqa: E402
 from plotly.offline import get_plotlyjs  # noqa: E402
 from plotly.subplots import make_subplots  # noqa: E402
 
-__all__ = [
-    "Bar",
-    "Box",
-    "Figure",
-    "Frame",
-    "Heatmap",
-    "Mesh3d",
-    "Paused",
-    "Scatter",
-    "Scatter3d",
-    "Scatterpolar",
-    "get_plotlyjs",
-    "make_subplots",
-    "sample_colorscale",
-]
+__all__ = ["Paused", "get_plotlyjs", "go", "make_subplots", "sample_colorscale"]
 
 
-class Paused(Figure):  # type: ignore[misc]
+class Paused(go.Figure):  # type: ignore[misc]
     """A figure with frames whose pages begin at rest, as :meth:`show` does; ``auto_play=True`` runs it at once."""
 
     def to_html(self, *given: Any, auto_play: bool = False, **options: Any) -> Any:

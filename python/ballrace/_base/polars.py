@@ -1,4 +1,4 @@
-"""polars, imported and started where it is first needed: ``from ._polars import pl``.
+"""polars, started with room for its threads; it is ``pl`` of :mod:`ballrace._base.libraries`.
 
 It reserves address space for its library and for its threads. Where a limit (``ulimit -v``, RLIMIT_AS) leaves too
 little of it, polars panics during its start, or ends the process. So its need is compared with the limit before.

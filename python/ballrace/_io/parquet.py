@@ -17,12 +17,11 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, BinaryIO, TypeVar
 
 from .._base.interrupt import interrupted_once
+from .._base.libraries import pl
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
     from pathlib import Path
-
-    import polars as pl
 
 T = TypeVar("T")
 
@@ -38,8 +37,6 @@ _PART = 1 << 20
 @contextmanager
 def writing_to(path: str | os.PathLike[str]) -> Iterator[None]:
     """Have what polars cannot write, as to a full disk, be an ``OSError`` that names the file."""
-    from .._base.polars import pl
-
     try:
         yield
     except pl.exceptions.PolarsError as error:
@@ -80,8 +77,6 @@ def read_sealed(
     OSError
         It cannot be read.
     """
-    from .._base.polars import pl
-
     is_sealed(path)
     if check is not None:
         check(path)
@@ -99,8 +94,6 @@ def scan_sealed(path: Path) -> dict[str, str]:
     OSError
         It cannot be read.
     """
-    from .._base.polars import pl
-
     is_sealed(path)
     return _unless_damaged(lambda: pl.read_parquet_metadata(path))
 
@@ -113,7 +106,6 @@ def columns_and_rows(path: Path) -> tuple[list[str], int]:
     ValueError
         It is damaged, or not Parquet.
     """
-    from .._base.polars import pl
 
     def read() -> tuple[list[str], int]:
         table = pl.scan_parquet(path, glob=False)
@@ -124,8 +116,6 @@ def columns_and_rows(path: Path) -> tuple[list[str], int]:
 
 def read_columns(path: Path, names: list[str]) -> pl.DataFrame:
     """Read some columns of a Parquet file whose hash is known to be right."""
-    from .._base.polars import pl
-
     return interrupted_once(lambda: pl.read_parquet(path, columns=names, glob=False))
 
 
@@ -137,8 +127,6 @@ def read_bytes(data: bytes) -> tuple[pl.DataFrame, dict[str, str]]:
     ValueError
         It is not Parquet.
     """
-    from .._base.polars import pl
-
     table = _unless_damaged(lambda: interrupted_once(lambda: pl.read_parquet(io.BytesIO(data))))
     return table, _unless_damaged(lambda: pl.read_parquet_metadata(io.BytesIO(data)))
 
@@ -210,8 +198,6 @@ def _hash(file: BinaryIO, start: int, footer: bytes) -> bytes:
 
 def _unless_damaged(read: Callable[[], T]) -> T:
     """Read by polars, whose errors come in several kinds; a panic is no ``Exception``."""
-    from .._base.polars import pl
-
     try:
         return read()
     except (pl.exceptions.PolarsError, pl.exceptions.PanicException) as error:

@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._base.interrupt import interrupted_once
+from .._base.libraries import pl
 from .._io.parquet import columns_and_rows, read_bytes, read_columns, sealing, to_bytes, writing_to
 from .._io.whole import whole
 from ..errors import BallraceError, FileError, SceneError
@@ -27,8 +28,6 @@ if TYPE_CHECKING:
     import os
     from collections.abc import Callable, Sequence
     from pathlib import Path
-
-    import polars as pl
 
     from .entries import Record
 
@@ -47,8 +46,6 @@ class Writer:
 
     def take(self, columns: Mapping[str, NDArray[np.float64]]) -> None:
         """Write a block: columns of one length, the same names in each block."""
-        from .._base.polars import pl
-
         table = pl.DataFrame(dict(columns))
         block = self._path.with_name(f"{self._path.name}.{len(self._blocks):08}")
         with writing_to(self._target):
@@ -62,8 +59,6 @@ class Writer:
             interrupted_once(lambda: self._join(metadata))
 
     def _join(self, metadata: dict[str, str]) -> None:
-        from .._base.polars import pl
-
         table = pl.scan_parquet(self._blocks, glob=False)
         table.sink_parquet(self._path, metadata=metadata, row_group_size=self._rows)
 
@@ -156,8 +151,6 @@ def unless_damaged(path: Path, read: Callable[[], Any]) -> Any:
 
 def samples(path: Path, table: pl.DataFrame, name: str) -> NDArray[np.float64]:
     """Return a column of a file, which has to hold numbers."""
-    from .._base.polars import pl
-
     if name not in table.columns:
         raise FileError(str(path), f"damaged: the column {name} is missing")
     column = table[name]

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .._base.interrupt import interrupted_once
+from .._base.libraries import pl
 from .._io.files import as_path
 from .._io.parquet import read_sealed, sealing
 from .._io.whole import whole
@@ -58,8 +59,6 @@ class Snapshot:
         OSError
             The folder does not exist or is not writable, or the disk is full.
         """
-        from .._base.polars import pl
-
         entries = {"ballrace": f"snapshot {_FORMAT}", _ENTRY: self._document}
         with whole(path) as temporary, sealing(temporary, path):
             table = pl.DataFrame(joined(self._pieces))

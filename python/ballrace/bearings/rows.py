@@ -8,16 +8,14 @@ import warnings
 from collections.abc import Iterator, Mapping
 from functools import cached_property
 from importlib import resources
-from typing import TYPE_CHECKING, cast, get_args
+from typing import cast, get_args
 
+from .._base.libraries import pl
 from ..errors import SceneError, SceneWarning
 from .entry import Bearing, Kind
 from .names import Name, near, read, without_maker
 from .refused import why_not
 from .sources import BOUNDARY, CONFORMITY, SOURCES, UNLIKE, Sources
-
-if TYPE_CHECKING:
-    import polars as pl
 
 __all__ = ["Catalogue", "catalogue"]
 
@@ -119,8 +117,6 @@ class Catalogue(Mapping[str, Bearing]):
 
     def to_polars(self) -> pl.DataFrame:
         """Return a table with a line per bearing, lengths in metres and loads in newtons."""
-        from .._base.polars import pl
-
         rows = []
         for row in self._rows.values():
             plain = {k: v for k, v in vars(row).items() if k != "sources"}

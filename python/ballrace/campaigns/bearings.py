@@ -7,13 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .._base.libraries import pl
 from .._base.numbers import counted, real
 from ..errors import SceneError
 from .designs import counted_cases
 
 if TYPE_CHECKING:
-    import polars as pl
-
     from ..scene import Scene
 
 __all__ = ["scatter"]
@@ -75,8 +74,6 @@ def scatter(
     >>> cases.height, cases["bearing_id"].n_unique()
     (2000, 1000)
     """
-    from .._base.polars import pl
-
     n, seed = counted_cases(n), counted("seed", seed, 0)
     deviations = {
         "ball_diameter": ball_diameter, "clearance": clearance, "groove_radius": groove_radius,

@@ -7,19 +7,17 @@ import math
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from .. import _core
 from .._base.document import encode
+from .._base.libraries import pl
 from ..errors import SceneError
 from ..options import BUDGET, DECIDING, EMPTY, document
 from ..scene import Scene
 from .columns import BASE
 from .disk import hash_of
 from .frames import rows_of
-
-if TYPE_CHECKING:
-    import polars as pl
 
 RESULTS = (*BASE, "changes", "measured_clipped", "turns", "batches")
 """Columns of the manifest that a table may not have."""
@@ -94,8 +92,6 @@ class Cases:
 
     def frame(self) -> pl.DataFrame:
         """Return the table with case ids: the left part of the manifest."""
-        from .._base.polars import pl
-
         columns = [pl.Series("case_id", [case.id for case in self.cases], dtype=pl.String)]
         columns += [_series(name, [row.get(name) for row in self._rows]) for name in self.names]
         texts = [json.dumps(_plain(self._changes(row))) for row in self._rows]
@@ -222,8 +218,6 @@ def _plain(value: Any) -> Any:
 
 def _series(name: str, values: Iterable[Any]) -> pl.Series:
     """Return a column; where its cells are of different kinds, as JSON text."""
-    from .._base.polars import pl
-
     # A label may well be no number.
     cells = [value if isinstance(value, float) else _plain(value) for value in values]
     present = [cell for cell in cells if cell is not None]

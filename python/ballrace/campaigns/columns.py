@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from .._base.libraries import pl
 from ..scene.defect import SURFACES
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
-
-    import polars as pl
 
 FAULTS = tuple(f"fault_{surface}" for surface in SURFACES)
 
@@ -30,8 +29,6 @@ BUDGET = {"budget": "String", "budget_limit": "Float64"}
 
 def schema() -> dict[str, Any]:
     """Return the types of the columns that every row of results has."""
-    from .._base.polars import pl
-
     types = {**STATISTICS, **BUDGET, **dict.fromkeys(FAULTS, "Boolean")}
     return {name: getattr(pl, types.get(name, "String")) for name in (*BASE, *BUDGET)}
 
@@ -43,8 +40,6 @@ def found_in(table: pl.DataFrame, features: Iterable[str]) -> list[str]:
 
 def check_results(frame: pl.DataFrame) -> None:
     """Refuse a table that has the right hash but was not written as rows of results."""
-    from .._base.polars import pl
-
     base = schema()
     if not {"case_id", "status"} <= set(frame.columns):
         raise ValueError("it has no rows of results")

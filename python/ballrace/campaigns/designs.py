@@ -7,16 +7,14 @@ from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from itertools import islice
 from numbers import Real
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from .._base.document import Part
+from .._base.libraries import pl, scipy
 from .._base.numbers import counted, real
 from ..errors import SceneError
-
-if TYPE_CHECKING:
-    import polars as pl
 
 __all__ = ["grid", "latin_hypercube", "sobol"]
 
@@ -44,8 +42,6 @@ def grid(values: Mapping[str, Iterable[object]]) -> pl.DataFrame:
     >>> table.shape, table.row(1)
     ((6, 2), (0.0, 0.001))
     """
-    from .._base.polars import pl
-
     lists = {name: _listed(name, column) for name, column in _named("values", values).items()}
     count = math.prod(len(column) for column in lists.values())
     check_cases("values", count)
@@ -79,8 +75,6 @@ def _listed(name: str, column: object) -> list[object]:
 
 def _series(name: str, column: list[object]) -> pl.Series:
     """Return a column whose cells are what was given, as objects where polars has no type for them."""
-    from .._base.polars import pl
-
     # A number beside a word would become a word, and beside a list there is no type for both.
     kinds = (str, bytes, Mapping, Sequence, np.ndarray, Part, Real, np.bool_)
     present = [value for value in column if value is not None]
@@ -117,10 +111,8 @@ def latin_hypercube(
     >>> sorted((table["loads.axial.force"] // 750).cast(int).to_list())
     [-4, -3, -2, -1, 0, 1, 2, 3]
     """
-    from scipy.stats import qmc
-
     count, seed = _checked(ranges, n, seed)
-    return _scaled(qmc.LatinHypercube(len(ranges), rng=seed).random(count), ranges)
+    return _scaled(scipy.stats.qmc.LatinHypercube(len(ranges), rng=seed).random(count), ranges)
 
 
 def sobol(ranges: Mapping[str, tuple[float, float]], n: int, *, seed: int) -> pl.DataFrame:
@@ -144,12 +136,10 @@ def sobol(ranges: Mapping[str, tuple[float, float]], n: int, *, seed: int) -> pl
     >>> br.sobol({"loads.axial.force": (-3e3, 3e3), "rows[0].clearance": (0.0, 2e-5)}, 64, seed=1).shape
     (64, 2)
     """
-    from scipy.stats import qmc
-
     count, seed = _checked(ranges, n, seed)
     if count & (count - 1):
         raise SceneError("n", str(n), "a power of two")
-    return _scaled(qmc.Sobol(len(ranges), rng=seed).random(count), ranges)
+    return _scaled(scipy.stats.qmc.Sobol(len(ranges), rng=seed).random(count), ranges)
 
 
 def _checked(ranges: Mapping[str, tuple[float, float]], n: int, seed: int) -> tuple[int, int]:
@@ -175,8 +165,6 @@ def check_cases(name: str, count: int) -> None:
 
 
 def _scaled(unit: Any, ranges: Mapping[str, tuple[float, float]]) -> pl.DataFrame:
-    from .._base.polars import pl
-
     columns = zip(ranges.items(), unit.T, strict=True)
     return pl.DataFrame(
         {name: real(low) + (real(high) - real(low)) * u for (name, (low, high)), u in columns}

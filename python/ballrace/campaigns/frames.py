@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from .._base.arguments import whole_text
+from .._base.libraries import pl
 from ..errors import SceneError
 
 _KINDS = "a table: polars, pandas, Arrow, a list of dicts or a dict of columns"
@@ -30,15 +31,13 @@ def rows_of(table: object) -> tuple[list[dict[str, Any]], list[str]]:
     SceneError
         It is no table, or has no rows.
     """
-    from .._base.polars import pl
-
     if isinstance(table, Sequence) and all(isinstance(row, Mapping) for row in table):
         rows = [dict(row) for row in table]
         names = list(dict.fromkeys(name for row in rows for name in row))
     elif type(table).__module__.partition(".")[0] == "pandas" and hasattr(table, "columns"):
         rows, names = _of_pandas(table)
     else:
-        frame = _frame(table, pl)
+        frame = _frame(table)
         rows, names = frame.to_dicts(), frame.columns
     for name in names:
         if not isinstance(name, str):
@@ -63,7 +62,7 @@ def _of_pandas(table: Any) -> tuple[list[dict[str, Any]], list[Any]]:
     return [dict(zip(names, row, strict=True)) for row in zip(*cells, strict=True)], names
 
 
-def _frame(table: Any, pl: Any) -> Any:
+def _frame(table: Any) -> Any:
     if isinstance(table, str | os.PathLike):
         raise SceneError("cases", repr(str(table)), f"{_KINDS}; polars.read_csv(path) reads a file")
     if isinstance(table, pl.LazyFrame):

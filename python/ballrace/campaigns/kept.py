@@ -6,6 +6,7 @@ import json
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+from .._base.libraries import pl
 from .._base.text import printable
 from .._io.parquet import collected
 from ..scene import Scene
@@ -16,8 +17,6 @@ from .verify import verify
 
 if TYPE_CHECKING:
     from pathlib import Path
-
-    import polars as pl
 
     from ..signals import Signals
     from .store import Store
@@ -65,8 +64,6 @@ class Kept:
         its metadata have ``ballrace.digest``, by which those who read it without this package can check it (see
         the guide).
         """
-        from .._base.polars import pl
-
         if not self._clipped:
             return self._finished
         columns = {"case_id": pl.String, "measured_clipped": pl.Float64}
@@ -76,8 +73,6 @@ class Kept:
     @cached_property
     def _finished(self) -> pl.DataFrame:
         """The manifest as it is written."""
-        from .._base.polars import pl
-
         results = self._results
         kept = (name for name in results.columns if name not in (*BASE, *BUDGET))
         features = sorted(found_in(results, kept))
@@ -100,8 +95,6 @@ class Kept:
     @property
     def warned(self) -> pl.DataFrame:
         """The rows of the manifest that ran but need a check."""
-        from .._base.polars import pl
-
         return self.manifest.filter(pl.col("warnings").is_not_null())
 
     def scan(self) -> pl.LazyFrame:
@@ -117,8 +110,6 @@ class Kept:
         CampaignError
             A shard is missing or damaged.
         """
-        from .._base.polars import pl
-
         kept = self.manifest.filter(pl.col("signals").is_not_null()).unique(
             "case_id", maintain_order=True
         )
@@ -141,8 +132,6 @@ class Kept:
         CampaignError
             The shard that holds them is missing or damaged.
         """
-        from .._base.polars import pl
-
         row = self._finished.filter(pl.col("case_id") == case_id, pl.col("signals").is_not_null())
         if row.is_empty():
             raise KeyError(f"no case {case_id!r} with signals")

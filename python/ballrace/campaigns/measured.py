@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .._base.libraries import pl
 from .._base.numbers import counted, positive, real
 from .._results.features import features
 from ..errors import AccuracyWarning, SceneError
@@ -22,8 +23,6 @@ from .columns import found_in
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
-
-    import polars as pl
 
 __all__ = ["Measured", "features_table", "measured", "windows_table"]
 
@@ -94,8 +93,6 @@ def features_table(
     lines: Iterator[Measured], skip: float, band: tuple[float, float] | None
 ) -> pl.DataFrame:
     """Return a line for each measurement: its labels, and its features as ``sensor.rms`` and so on."""
-    from .._base.polars import pl
-
     labels, found = [], []
     for line in lines:
         x, fs = line.measurement.x, line.measurement.fs
@@ -116,8 +113,6 @@ def windows_table(
     SceneError
         The length, the hop or what is skipped is not usable.
     """
-    from .._base.polars import pl
-
     length = counted("length", length, 1)
     hop = length if hop is None else counted("hop", hop, 1)
     positive("skip", skip, "s", zero=True)

@@ -27,6 +27,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 from warnings import warn
 
+from .._base.libraries import pl
 from .._io.parquet import read_sealed, to_bytes
 from ..errors import CampaignError, CampaignWarning
 from . import description
@@ -38,8 +39,6 @@ from .shards import FEATURES, SHARD, check_shard, names, set_aside, shard_of_res
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
     from pathlib import Path
-
-    import polars as pl
 
 _FOLDERS = ("locks", "results", "signals", "tmp")
 _AT_ONCE = 200
@@ -213,8 +212,6 @@ class Store:
         CampaignError
             A shard is damaged, or the folder cannot be read.
         """
-        from .._base.polars import pl
-
         # A shard of an older version may lack columns.
         frames = [pl.DataFrame(schema=schema())]
         for name in sorted(names(self.root, "results")):
@@ -317,8 +314,6 @@ def digest_of(frame: pl.DataFrame) -> str:
 
 def _joined(frames: list[pl.DataFrame]) -> pl.DataFrame:
     """Join tables in parts, between which Ctrl-C is checked: polars takes more than a second for 5000 at once."""
-    from .._base.polars import pl
-
     while len(frames) > 1:
         parts = range(0, len(frames), _AT_ONCE)
         frames = [pl.concat(frames[i : i + _AT_ONCE], how="diagonal") for i in parts]

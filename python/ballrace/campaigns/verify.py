@@ -5,6 +5,7 @@ from __future__ import annotations
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
+from .._base.libraries import pl
 from .._io.files import as_path
 from .._io.parquet import scan_sealed
 from ..errors import CampaignError
@@ -15,8 +16,6 @@ if TYPE_CHECKING:
     import os
     from collections.abc import Callable, Iterator
     from pathlib import Path
-
-    import polars as pl
 
 
 def verify(folder: str | os.PathLike[str]) -> pl.DataFrame:
@@ -37,8 +36,6 @@ def verify(folder: str | os.PathLike[str]) -> pl.DataFrame:
     CampaignError
         It is no folder of a campaign.
     """
-    from .._base.polars import pl
-
     root = as_path(folder, "folder").resolve()
     if not any((root / name).exists() for name in (*description.NAMES, "cases.parquet")):
         raise CampaignError(f"{root}: holds no campaign; campaign.json is missing")

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from .. import _core
+from .._base.libraries import pl
 from .._base.text import printable
 from ..errors import BallraceError, CampaignError, from_record, record_of
 from ..scene.defect import SURFACES
@@ -119,8 +120,6 @@ class Writer:
         self._rows, self._signals, self._size = [], [], 0
 
     def _write_signals(self) -> str:
-        from .._base.polars import pl
-
         frames = []
         for case_id, raw in sorted(self._signals, key=lambda pair: pair[0]):
             columns = {name: values for name, _, values in raw["columns"]}
@@ -224,8 +223,6 @@ def record_failed(store: Store, failed: Iterable[tuple[str, BallraceError]]) -> 
 
 
 def _results(rows: list[dict[str, Any]]) -> Any:
-    from .._base.polars import pl
-
     base = schema()
     names = list(dict.fromkeys(name for entry in rows for name in entry))
     types = {name: base.get(name, pl.Float64) for name in names}

@@ -5,9 +5,10 @@ from __future__ import annotations
 import argparse
 import re
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from .. import presets
+from .._base.libraries import pl
 from .._base.text import printable
 from .._io.files import as_path
 from .._io.toml import loads
@@ -20,9 +21,6 @@ from ..errors import CampaignError, SceneError
 from ..options import ARGUMENTS, BUDGET
 from ..scene import Scene
 from .arguments import Commands, add_budget
-
-if TYPE_CHECKING:
-    import polars as pl
 
 __all__ = ["add_commands", "read"]
 
@@ -258,8 +256,6 @@ def _values(column: str, value: Any) -> list[Any]:
 
 
 def _file(path: Path) -> pl.DataFrame:
-    from .._base.polars import pl
-
     try:
         match path.suffix.lower():
             case ".csv":

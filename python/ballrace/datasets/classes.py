@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from .._base.libraries import pl
 from ..errors import SceneError
 from ..scene.defect import SURFACES
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
-
-    import polars as pl
 
 __all__ = ["classes_of"]
 
@@ -45,8 +44,6 @@ def classes_of(
     >>> classes_of(table, ["fault_ball", "fault_outer_race"], "label").to_list()
     ['ball+outer_race', 'healthy']
     """
-    from .._base.polars import pl
-
     if columns is None:
         columns = next((names for names in _KNOWN if set(names) <= set(table.columns)), ())
     names = (columns,) if isinstance(columns, str) else tuple(columns)
@@ -61,8 +58,6 @@ def classes_of(
 
 def _joined(table: pl.DataFrame, names: tuple[str, ...]) -> pl.Series:
     """Return the names of the columns that are true, joined."""
-    from .._base.polars import pl
-
     known = pl.all_horizontal(pl.col(name).is_not_null() for name in names)
     true = [pl.when(pl.col(n)).then(pl.lit(n.removeprefix("fault_"))) for n in names]
     joined = pl.concat_str(true, separator="+", ignore_nulls=True)

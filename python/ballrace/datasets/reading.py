@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .._base.libraries import pl
 from .._base.numbers import real
-from .._base.polars import pl
 from .._io.files import as_path
 from .._io.parquet import collected
 from ..channel import Channel

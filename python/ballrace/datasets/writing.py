@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .._base.interrupt import interrupted_once
+from .._base.libraries import pl
 from .._io.files import as_path
 from .._io.parquet import writing_to
 from ..errors import SceneError
@@ -102,8 +103,6 @@ def _file(number: int) -> str:
 
 def write_block(path: Path, block: list[tuple[str, NDArray[np.float32]]]) -> None:
     """Write signals with their names into a file."""
-    from .._base.polars import pl
-
     names, parts = zip(*block, strict=True)
     samples = pl.Series([pl.Series(part) for part in parts], dtype=pl.List(pl.Float32))
     table = pl.DataFrame({"signal_id": names, "signal": samples})
@@ -115,8 +114,6 @@ def write_table(
     folder: Path, rows: list[dict[str, Any]], columns: Collection[str] = tuple(COLUMNS)
 ) -> None:
     """Write the table of signals with these columns in their order, as far as every row has them."""
-    from .._base.polars import pl
-
     size = pl.col("fault_size_mm")
     level = pl.when(size == 0.0).then(0).otherwise(size.rank("dense").over("fault_type"))
     table = pl.DataFrame(rows, infer_schema_length=None)

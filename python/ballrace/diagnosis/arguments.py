@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from .._base.libraries import scipy
 from .._base.numbers import real
 from .._base.units import ACCELERATIONS, VELOCITIES
 from ..errors import SceneError
@@ -32,10 +33,8 @@ __all__ = [
 
 def checked_channel(channel: Channel, unit: str | None, name: str = "record") -> Channel:
     """Return the channel in m/s² where its unit is known, cut to a length that transforms quickly."""
-    from scipy.fft import prev_fast_len
-
     x = checked_signal(channel.x, channel.fs, name)
-    channel = replace(channel, x=x[: prev_fast_len(x.size, real=True)])
+    channel = replace(channel, x=x[: scipy.fft.prev_fast_len(x.size, real=True)])
     if unit is not None:
         channel = replace(channel, unit=_checked_unit(unit, channel.unit))
     return channel.to("m/s^2") if channel.unit in ACCELERATIONS else channel

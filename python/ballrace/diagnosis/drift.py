@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .._base.libraries import scipy
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -41,15 +43,15 @@ def without_drift(x: NDArray[np.float64], fs: float, shaft: float) -> NDArray[np
     >>> bool(np.abs(without_drift(wave + step, 50.0, 1.0) - wave)[60:440].max() < 0.1)
     True
     """
-    from scipy.ndimage import median_filter, uniform_filter1d
-
     samples = min(fs / shaft, float(x.size))
     turn = min(max(round(samples), 3), x.size - 1) | 1
     # Beyond its ends a record goes on as it came.
     longer = np.pad(x, turn, mode="reflect", reflect_type="odd")
-    drift = median_filter(longer, turn, mode="nearest")
+    drift = scipy.ndimage.median_filter(longer, turn, mode="nearest")
     width = max(round(_SMOOTHED * samples), 1)
-    smooth = uniform_filter1d(uniform_filter1d(drift, width, mode="nearest"), width, mode="nearest")
+    smooth = scipy.ndimage.uniform_filter1d(
+        scipy.ndimage.uniform_filter1d(drift, width, mode="nearest"), width, mode="nearest"
+    )
     apart = np.abs(drift - smooth)
     at_step = apart > _STEP * float(np.median(apart))
     slow = np.where(at_step, drift, smooth)[turn:-turn]

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from .._base.libraries import scipy
 from ..spectra.pieces import hann
 from ..spectra.whitening import flattened
 
@@ -83,10 +84,8 @@ class Levels:
         return found
 
     def _within(self, half: int) -> NDArray[np.float64]:
-        from scipy.ndimage import maximum_filter1d
-
         if half not in self._widened:
-            self._widened[half] = maximum_filter1d(self.db, 2 * half + 1, axis=1)
+            self._widened[half] = scipy.ndimage.maximum_filter1d(self.db, 2 * half + 1, axis=1)
         return self._widened[half]
 
     def without(self, rates: Iterable[float]) -> Levels:
@@ -182,12 +181,10 @@ def half_spectrum(x: NDArray[np.float64]) -> NDArray[np.complex128]:
     The signal is faded in and out: a transform repeats it, and where slow vibration ends otherwise than it
     began, that step would be an impact.
     """
-    from scipy.fft import rfft
-
     # A Tukey window.
     from_end = np.minimum(np.arange(x.size), np.arange(x.size)[::-1])
     fade = 0.5 - 0.5 * np.cos(np.pi * np.minimum(from_end * (2.0 / (_FADED * (x.size - 1))), 1.0))
-    found: NDArray[np.complex128] = rfft((x - x.mean()) * fade)[: x.size // 2]
+    found: NDArray[np.complex128] = scipy.fft.rfft((x - x.mean()) * fade)[: x.size // 2]
     return found
 
 
@@ -198,31 +195,25 @@ def band_envelope(
 
     The band is moved to zero and sampled twice as densely as it is wide, which the square needs.
     """
-    from scipy.fft import ifft, next_fast_len
-
     inside = spectrum[round(low * n / fs) : round(high * n / fs)]
-    size = next_fast_len(2 * inside.size)
-    z = ifft(inside, size) * (2.0 * size / n)
+    size = scipy.fft.next_fast_len(2 * inside.size)
+    z = scipy.fft.ifft(inside, size) * (2.0 * size / n)
     power: NDArray[np.float64] = z.real**2 + z.imag**2
     return power
 
 
 def line_spectrum(x: NDArray[np.float64], m: int) -> NDArray[np.float64]:
     """Return the first ``m`` amplitudes of a Hann-weighted spectrum; zero where there are fewer."""
-    from scipy.fft import rfft
-
-    found = np.abs(rfft((x - x.mean()) * hann(x.size)))[:m]
+    found = np.abs(scipy.fft.rfft((x - x.mean()) * hann(x.size)))[:m]
     return np.pad(found, (0, m - found.size))
 
 
 def levels_of(value: NDArray[np.float64], duration: float, shaft: float) -> Levels:
     """Return spectra as levels over their running medians, within :data:`FLOOR` and :data:`CEILING`."""
-    from scipy.ndimage import median_filter
-
     around = max(int(_AROUND * shaft * duration) | 1, _LEAST_AROUND)
     db = np.empty(value.shape)
     for row, spectrum in zip(db, value, strict=True):
-        floor = median_filter(spectrum, around)
+        floor = scipy.ndimage.median_filter(spectrum, around)
         # Where there is next to nothing, rounding makes no lines.
         floor = np.maximum(floor, 1e-9 * spectrum.max(initial=0.0)) + np.finfo(float).tiny
         row[:] = 20.0 * np.log10(np.maximum(spectrum / floor, 1e-9))

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .._base.libraries import scipy
 from ..bearings import catalogue
 from .combs import WIDTH, comb_of
 from .envelopes import band_envelope, envelope_spectra, half_spectrum, levels_of
@@ -226,13 +227,11 @@ def _rates(
     row: NDArray[np.float64], fs: float, shaft: float, count: int
 ) -> tuple[NDArray[np.float64], float]:
     """Return the rate of impacts in pieces of a squared envelope [Hz], nan where not clear, and how clear."""
-    from scipy.fft import irfft, next_fast_len, rfft
-
     pieces = row[: row.size // count * count].reshape(count, -1)
     pieces = np.minimum(pieces, np.quantile(pieces, 0.99, axis=1, keepdims=True))
     pieces = pieces - pieces.mean(axis=1, keepdims=True)
-    size = next_fast_len(2 * pieces.shape[1], real=True)
-    correlation = irfft(np.abs(rfft(pieces, size, axis=1)) ** 2, size, axis=1)
+    size = scipy.fft.next_fast_len(2 * pieces.shape[1], real=True)
+    correlation = scipy.fft.irfft(np.abs(scipy.fft.rfft(pieces, size, axis=1)) ** 2, size, axis=1)
     first, last = (round(fs / (order * shaft)) for order in reversed(_ORDERS))
     last = min(last, pieces.shape[1] // 2)
     if first < 3 or last <= first:

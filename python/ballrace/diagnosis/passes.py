@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from .._base.libraries import scipy
 from ..spectra.whitening import flattened
 from .envelopes import band_envelope, half_spectrum
 
@@ -118,15 +119,13 @@ class _White:
 
     def correlation(self, arc: NDArray[np.float64], band: Band) -> NDArray[np.float64]:
         """Return the autocorrelation of the squared envelope, at arcs [ball diameters]."""
-        from scipy.fft import irfft, next_fast_len, rfft
-
         power = self.power(band)
         step = self.length / power.size
         # Finer lags than the envelope is sampled at; and zeros, so that its end does not meet its begin.
         finer = math.ceil(step / _STEP)
-        size = next_fast_len(power.size + math.ceil(arc[-1] / step) + 1, real=True)
-        density = np.abs(rfft(power - power.mean(), size)) ** 2
-        found = irfft(density, finer * size)[: math.ceil(arc[-1] / step * finer) + 1]
+        size = scipy.fft.next_fast_len(power.size + math.ceil(arc[-1] / step) + 1, real=True)
+        density = np.abs(scipy.fft.rfft(power - power.mean(), size)) ** 2
+        found = scipy.fft.irfft(density, finer * size)[: math.ceil(arc[-1] / step * finer) + 1]
         at = np.arange(found.size) * (step / finer)
         over: NDArray[np.float64] = np.interp(arc, at, found / _positive(found[0]))
         return over
@@ -158,10 +157,12 @@ def _bands_for(fs: float, speed: float) -> Sequence[Band]:
 
 
 def _over_running_mean(rows: NDArray[np.float64]) -> NDArray[np.float64]:
-    from scipy.ndimage import uniform_filter1d
-
-    smooth = uniform_filter1d(rows, round(_SMOOTHED / _STEP) | 1, axis=1, mode="nearest")
-    around = uniform_filter1d(smooth, round(_AROUND / _STEP) | 1, axis=1, mode="nearest")
+    smooth = scipy.ndimage.uniform_filter1d(
+        rows, round(_SMOOTHED / _STEP) | 1, axis=1, mode="nearest"
+    )
+    around = scipy.ndimage.uniform_filter1d(
+        smooth, round(_AROUND / _STEP) | 1, axis=1, mode="nearest"
+    )
     found: NDArray[np.float64] = smooth - around
     return found
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .._base.libraries import go
 from ..errors import SceneError
 from ..plot.style import COLOURS, SYMBOLS, finished
 from .envelopes import FLOOR
@@ -13,8 +14,6 @@ from .null import ACCUSED
 from .verdict import NAMES
 
 if TYPE_CHECKING:
-    import plotly.graph_objects as go
-
     from .combs import Part
     from .envelopes import Levels
     from .evidence import Evidence
@@ -30,11 +29,9 @@ def picture(
     of: Diagnosis, levels: Levels | None, part: Part | None, fig: go.Figure | None, layout: dict[str, Any]
 ) -> go.Figure:  # fmt: skip
     """Draw a diagnosis; see :meth:`ballrace.diagnosis.Diagnosis.plot`."""
-    from .._base.plotly import Figure, Scatter
-
     one = _chosen(of, levels, part)
     assert levels is not None
-    fig = fig if fig is not None else Figure()
+    fig = fig if fig is not None else go.Figure()
     f = np.arange(levels.hidden.size) / levels.duration
     shown = f <= 4.3 * one.order * of.shaft.rate
     row = levels.db[of._row(one)]
@@ -45,7 +42,7 @@ def picture(
     )  # fmt: skip
     line = {"color": COLOURS[0], "width": 1.0}
     fig.add_trace(
-        Scatter(x=f[shown], y=row[shown], mode="lines", name="squared envelope", line=line)
+        go.Scatter(x=f[shown], y=row[shown], mode="lines", name="squared envelope", line=line)
     )
     _add_expected(fig, one)
     fig.update_xaxes(title_text="frequency / Hz")
@@ -69,20 +66,18 @@ def _chosen(of: Diagnosis, levels: Levels | None, part: Part | None) -> Evidence
 
 def _add_expected(fig: go.Figure, one: Evidence) -> None:
     """Mark where lines were expected below the axis, and the significant ones at their tops."""
-    from .._base.plotly import Scatter
-
     name, colour, _, marker = SYMBOLS[one.part]
     places = [line.expected for line in one.lines]
     labels = [line.label.replace("f_r", "f<sub>r</sub>") for line in one.lines]
     fig.add_trace(
-        Scatter(
+        go.Scatter(
             x=places, y=[_MARKS] * len(places), mode="markers", name="expected by nominal orders",
             marker={"symbol": "line-ns-open", "size": 12, "color": "#444"},
             text=[line.label for line in one.lines], hovertemplate="%{text}: %{x:.3f} Hz<extra></extra>",
         )
     )  # fmt: skip
     fig.add_trace(
-        Scatter(
+        go.Scatter(
             x=[line.found for line in one.lines], y=[line.level for line in one.lines], mode="markers+text",
             name=f"{name}, order × {one.factor:.3f}", text=labels,
             textposition=[_beside(line.label) for line in one.lines],

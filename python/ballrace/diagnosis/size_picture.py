@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from .._base.libraries import go
 from ..errors import SceneError
 from ..plot.style import COLOURS, DASHES, finished
 from .verdict import NAMES
 
 if TYPE_CHECKING:
-    import plotly.graph_objects as go
-
     from .width import Sized
 
 __all__ = ["size_picture"]
@@ -20,9 +19,7 @@ def size_picture(
     of: Sized | None, beside: Sized | None, fig: go.Figure | None, layout: dict[str, Any]
 ) -> go.Figure:
     """Draw an averaged pass; see :meth:`ballrace.diagnosis.Diagnosis.plot_size`."""
-    from .._base.plotly import Figure
-
-    fig = fig if fig is not None else Figure()
+    fig = fig if fig is not None else go.Figure()
     _add_pass(fig, of, "this record", 0)
     if beside is not None:
         _add_pass(fig, beside, "beside it", 1)
@@ -39,13 +36,11 @@ def size_picture(
 
 
 def _add_pass(fig: go.Figure, of: Sized | None, name: str, line: int) -> None:
-    from .._base.plotly import Scatter
-
     if of is None or of.averaged is None or of.width.value is None:
         why = "no width was looked for" if of is None else of.width.why
         raise SceneError("width", "of " + name, f"one that is known: {why}")
     fig.add_trace(
-        Scatter(
+        go.Scatter(
             x=1e3 * of.ball_diameter * of.averaged.arc, y=of.averaged.envelope, mode="lines",
             name=f"{name}: {1e3 * of.width.value:.2f} mm, {of.averaged.count} passes",
             line={"color": COLOURS[line], "dash": DASHES[line]},

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .._base.libraries import scipy
 from ..measuring import Chain, Logger, measure
 
 if TYPE_CHECKING:
@@ -68,8 +69,6 @@ def sound(channel: Channel) -> bytes:
 
     Its loudness says nothing: the weakest record is as loud as the strongest.
     """
-    from scipy.io import wavfile
-
     x = channel.x - channel.x.mean()
     fade = min(round(_FADE * channel.fs), x.size // 2)
     ramp = np.ones(x.size)
@@ -79,5 +78,5 @@ def sound(channel: Channel) -> bytes:
     largest = float(np.abs(x).max(initial=0.0)) or 1.0
     buffer = io.BytesIO()
     samples = np.round(32767.0 * _PEAK * x / largest).astype(np.int16)
-    wavfile.write(buffer, round(channel.fs), samples)
+    scipy.io.wavfile.write(buffer, round(channel.fs), samples)
     return buffer.getvalue()

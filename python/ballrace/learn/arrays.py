@@ -8,13 +8,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from .._base.libraries import pl
 from ..datasets.classes import classes_of
 from ..errors import SceneError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
-
-    import polars as pl
 
 __all__ = ["Examples", "examples"]
 
@@ -76,8 +75,6 @@ def examples(
     >>> examples(out.to_windows(100, columns="outer.ay"), "outer.ay")
     <Examples: 5 windows of 100 samples: healthy 5>
     """
-    from .._base.polars import pl
-
     if column not in table.columns:
         raise SceneError("column", repr(column), f"one of {', '.join(table.columns)}")
     names = classes_of(table, label, "label")
@@ -97,8 +94,6 @@ def examples(
 
 def _samples(column: pl.Series) -> NDArray[np.float32]:
     """Return the samples of all windows, a copy of its own."""
-    from .._base.polars import pl
-
     if isinstance(column.dtype, pl.List) and column.list.len().n_unique() == 1:
         column = column.list.to_array(column.list.len()[0])
     if not isinstance(column.dtype, pl.Array):

@@ -21,6 +21,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .._base.libraries import scipy
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -62,9 +64,7 @@ def character_of(channel: Channel) -> NDArray[np.float64]:
 
 
 def _lines(amplitude: NDArray[np.float64]) -> NDArray[np.bool_]:
-    from scipy.ndimage import median_filter
-
-    floor = median_filter(amplitude, _BESIDE)
+    floor = scipy.ndimage.median_filter(amplitude, _BESIDE)
     return np.asarray(amplitude > _LINE * np.maximum(floor, 1e-12 * amplitude.max()))
 
 

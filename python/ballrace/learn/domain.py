@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .._base.polars import pl
+from .._base.libraries import pl
 from ..errors import SceneError
 from .character import NAMES, PATH, character_of
 from .envelope_lines import EnvelopeLines

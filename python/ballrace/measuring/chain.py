@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, TypedDict, Unpack
 import numpy as np
 from numpy.typing import NDArray
 
+from .._base.libraries import pl
 from .._base.numbers import counted
 from ..channel import Channel
 from ..errors import AccuracyWarning, SceneError
@@ -30,7 +31,6 @@ from .tacho import Tacho
 if TYPE_CHECKING:
     import os
 
-    import polars as pl
     from numpy.typing import ArrayLike
 
 
@@ -188,8 +188,6 @@ class Measurement:
 
     def to_polars(self) -> pl.DataFrame:
         """Return a table with the time ``t`` and the column ``sensor``."""
-        from .._base.polars import pl
-
         return pl.DataFrame({"t": self.t, "sensor": self.x})
 
     def write(self, path: str | os.PathLike[str]) -> None:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .._base.libraries import scipy
 from .._base.numbers import counted
 from ..bearings.pedestal import OF_6205
 from ..channel import Recorded
@@ -158,15 +159,13 @@ def _floor_of(record: Recorded) -> tuple[NDArray[np.float64], NDArray[np.float64
         raise SceneError(
             "background", type(record).__name__, "a record, such as br.read gives, or None"
         )
-    from scipy.signal import welch
-
     channel = record.channel()
     if not channel.n_samples >= 0.5 * channel.fs:
         raise SceneError(
             "background", f"{channel.n_samples / channel.fs:g} s", "half a second or more"
         )
     size = min(16_384, channel.n_samples)
-    f, density = welch(channel.x, channel.fs, nperseg=size)
+    f, density = scipy.signal.welch(channel.x, channel.fs, nperseg=size)
     edges = np.geomspace(
         50.0, 0.48 * channel.fs, max(2, round(2.0 * math.log2(channel.fs / 100.0)))
     )

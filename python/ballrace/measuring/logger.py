@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .._base.libraries import scipy
 from .._base.numbers import counted, positive
 from ..errors import SceneError
 from .noise import noise
@@ -93,14 +94,12 @@ class Logger:
         ratio = Fraction(rate / fs).limit_denominator(2000)
         if abs(float(ratio) * fs / rate - 1.0) > 1e-9:
             raise SceneError("logger.fs", f"{rate:g}", f"a ratio of small whole numbers to {fs:g}")
-        from scipy import signal
-
         up, down = ratio.numerator, ratio.denominator
         flat = self._flat(rate, fs)
         taps = _lowpass(flat, min(1.25 * flat, 0.5 * rate, 0.5 * fs), up * fs)
         if up == down:  # of which resample_poly makes a copy, unfiltered
-            return np.asarray(signal.oaconvolve(x, taps, mode="same")), rate
-        return np.asarray(signal.resample_poly(x, up, down, window=taps)), rate
+            return np.asarray(scipy.signal.oaconvolve(x, taps, mode="same")), rate
+        return np.asarray(scipy.signal.resample_poly(x, up, down, window=taps)), rate
 
     def _flat(self, rate: float, fs: float) -> float:
         lower = min(rate, fs)
@@ -137,11 +136,9 @@ class Logger:
 
 def _lowpass(flat: float, stop: float, fs: float) -> NDArray[np.float64]:
     """Return a linear-phase filter, flat to a frequency and down by 80 dB from another on."""
-    from scipy import signal
-
     nyquist = 0.5 * fs
-    count, beta = signal.kaiserord(_STOP, (stop - flat) / nyquist)
-    taps = signal.firwin(
+    count, beta = scipy.signal.kaiserord(_STOP, (stop - flat) / nyquist)
+    taps = scipy.signal.firwin(
         2 * math.ceil(count / 2) + 1, 0.5 * (flat + stop) / nyquist, window=("kaiser", beta)
     )
     return np.asarray(taps)

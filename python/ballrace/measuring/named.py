@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import fields, is_dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from .._base.libraries import pl
 from ..errors import SceneError
 from .chain import Chain
-
-if TYPE_CHECKING:
-    import polars as pl
 
 __all__ = ["Chains", "named_chains", "table"]
 
@@ -49,8 +47,6 @@ def table(chains: Chains) -> pl.DataFrame:
     >>> found.height, found.columns[:3]
     (3, ['chain', 'path.modes[0].frequency', 'path.modes[0].damping'])
     """
-    from .._base.polars import pl
-
     rows: list[dict[str, float | str]] = []
     for name, chain in named_chains(chains).items():
         rows.append({"chain": name, **dict(_entries(chain, ""))})

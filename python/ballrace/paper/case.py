@@ -4,16 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .._base.libraries import pl
 from ..signals import Signals
 from .measures import Array, Zone
-
-if TYPE_CHECKING:
-    import polars as pl
 
 
 @dataclass(frozen=True)
@@ -61,8 +58,6 @@ class Balls:
 
     def to_polars(self) -> pl.DataFrame:
         """Return a table with a line per ball."""
-        from .._base.polars import pl
-
         return pl.DataFrame(self.__dict__)
 
 

@@ -7,6 +7,7 @@ import json
 import math
 from typing import TYPE_CHECKING, Any
 
+from .._base.libraries import pl
 from .._io.files import check_writable
 from .._io.whole import whole
 from .comparison import AXIAL_LOADS
@@ -15,8 +16,6 @@ from .page import page
 if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
-
-    import polars as pl
 
     from .case import Case
     from .study import Paper
@@ -82,8 +81,6 @@ def _finite(value: Any) -> Any:
 
 
 def _tables(paper: Paper) -> dict[str, pl.DataFrame]:
-    from .._base.polars import pl
-
     def stacked(of: Callable[[Case], pl.DataFrame]) -> pl.DataFrame:
         return pl.concat(
             of(case).select(pl.lit(AXIAL_LOADS[name]).alias("axial_load"), pl.all())

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .._base.libraries import go
 from ..channel import default_column
 from ..errors import SceneError
 from ..scene import ContactsProbe, MotionProbe, StructureProbe
@@ -16,8 +17,6 @@ from .sources import check_run, source
 from .style import COLOURS, finished, title
 
 if TYPE_CHECKING:
-    import plotly.graph_objects as go
-
     from ..scene import Probe, Scene
     from ..signals import Signals
 
@@ -93,8 +92,6 @@ def animation(
     >>> len(fig.frames)
     20
     """
-    from .._base.plotly import Frame
-
     check_run(out)
     column = default_column(out) if column is None else column
     check(out, column, row, frames)
@@ -113,7 +110,7 @@ def animation(
     fig.add_trace(_cursor(fig, t[shown[0]]), row=2, col=1)
     places = list(range(first, len(fig.data)))
     fig.frames = [
-        Frame(
+        go.Frame(
             data=[*(trace for _, trace in moving.at(k)), _cursor(fig, t[k])],
             traces=places,
             name=f"{t[k]:.2f}",
@@ -164,13 +161,11 @@ def _panels() -> go.Figure:
 
 
 def _signal(fig: go.Figure, out: Signals, column: str, samples: list[int]) -> None:
-    from .._base.plotly import Scatter
-
     signal = source(out, column, None)
     part = slice(samples[0], samples[-1] + 1)
     t, x = min_max(1e3 * out.t[part], signal.x[part])
     line = {"color": COLOURS[0], "width": 1}
-    fig.add_trace(Scatter(x=t, y=x, mode="lines", line=line, name=signal.name), row=2, col=1)
+    fig.add_trace(go.Scatter(x=t, y=x, mode="lines", line=line, name=signal.name), row=2, col=1)
     rim = 1.1 * float(np.abs(x).max(initial=0.0)) or 1.0
     fig.update_yaxes(
         title_text=title(signal.name.split(",")[0], signal.unit), range=[-rim, rim], row=2, col=1
@@ -179,11 +174,11 @@ def _signal(fig: go.Figure, out: Signals, column: str, samples: list[int]) -> No
 
 
 def _cursor(fig: go.Figure, now: float) -> Any:
-    from .._base.plotly import Scatter
-
     low, high = fig.layout.yaxis3.range or (-1.0, 1.0)
     style = {"color": COLOURS[1], "width": 2, "dash": "dash"}
-    return Scatter(x=[float(now), float(now)], y=[low, high], mode="lines", line=style, name="now")
+    return go.Scatter(
+        x=[float(now), float(now)], y=[low, high], mode="lines", line=style, name="now"
+    )
 
 
 def _finish(fig: go.Figure, out: Signals, layout: dict[str, Any]) -> go.Figure:

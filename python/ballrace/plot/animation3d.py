@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from .._base.libraries import go
 from .._base.numbers import real
 from ..errors import SceneError
 from .animation import check, player, samples
@@ -11,8 +12,6 @@ from .style import finished
 from .turning import Turning
 
 if TYPE_CHECKING:
-    import plotly.graph_objects as go
-
     from ..signals import Signals
 
 __all__ = ["animation3d"]
@@ -69,7 +68,7 @@ def animation3d(
     >>> len(fig.frames)
     20
     """
-    from .._base.plotly import Frame, Paused
+    from .._base.plotly import Paused
 
     check(out, "inner.theta", row, frames)
     if not 1.0 <= real(enlarged) <= 20.0:
@@ -82,7 +81,7 @@ def animation3d(
     first = len(fig.data)
     fig.add_traces(turning.first(shown[0]))
     places = list(range(first, len(fig.data)))
-    fig.frames = [Frame(data=turning.at(k), traces=places, name=f"{t[k]:.2f}") for k in shown]
+    fig.frames = [go.Frame(data=turning.at(k), traces=places, name=f"{t[k]:.2f}") for k in shown]
     hidden = {"visible": False}
     scene = {
         "xaxis": hidden, "yaxis": hidden, "zaxis": hidden, "aspectmode": "data", "uirevision": "kept",

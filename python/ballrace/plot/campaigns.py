@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .._base.libraries import go, pl
 from ..errors import SceneError
 from ..scene.defect import SURFACES
 from .maps import SHADES
@@ -13,8 +14,6 @@ from .names import feature, parameter
 from .style import COLOURS, MARKERS, finished, wrapped
 
 if TYPE_CHECKING:
-    import plotly.graph_objects as go
-    import polars as pl
     from numpy.typing import NDArray
 
     from ..campaigns import Campaign
@@ -64,12 +63,9 @@ def campaign_map(
     >>> fig.data[0].z.tolist()
     [[3.0, 4.0]]
     """
-    from .._base.plotly import Figure
-    from .._base.polars import pl
-
     table = _table(done, (x, y, value)).drop_nulls([x, y, value])
     mean = table.group_by(x, y).agg(pl.col(value).mean())
-    fig = fig if fig is not None else Figure()
+    fig = fig if fig is not None else go.Figure()
     quantity = feature(value)
     named = f"log₁₀ of {quantity}" if logarithmic else quantity
     cells = mean[x].n_unique() * mean[y].n_unique()
@@ -92,8 +88,6 @@ def _shades(values: NDArray[np.float64], logarithmic: bool) -> NDArray[np.float6
 
 def _cells(mean: pl.DataFrame, columns: tuple[str, str, str], logarithmic: bool) -> go.Heatmap:
     """Draw the cases of a grid."""
-    from .._base.plotly import Heatmap
-
     x, y, value = columns
     across, up = (np.unique(mean[name].to_numpy()) for name in (x, y))
     z = np.full((up.size, across.size), np.nan)
@@ -101,7 +95,7 @@ def _cells(mean: pl.DataFrame, columns: tuple[str, str, str], logarithmic: bool)
     z[tuple(places)] = mean[value].to_numpy()
     few = z.size <= 64
     labels = [["–" if np.isnan(v) else f"{v:.3g}" for v in line] for line in z]
-    return Heatmap(
+    return go.Heatmap(
         x=[f"{v:.6g}" for v in across], y=[f"{v:.6g}" for v in up], z=_shades(z, logarithmic),
         colorscale=SHADES, text=labels, colorbar={"thickness": 14},
         texttemplate="%{text}" if few else None,
@@ -111,12 +105,10 @@ def _cells(mean: pl.DataFrame, columns: tuple[str, str, str], logarithmic: bool)
 
 def _points(mean: pl.DataFrame, columns: tuple[str, str, str], logarithmic: bool) -> go.Scatter:
     """Draw cases that are no grid."""
-    from .._base.plotly import Scatter
-
     x, y, value = columns
     shades = _shades(mean[value].to_numpy(), logarithmic)
     marker = {"color": shades, "colorscale": SHADES, "colorbar": {"thickness": 14}, "size": 9}
-    return Scatter(
+    return go.Scatter(
         x=mean[x].to_numpy(), y=mean[y].to_numpy(), mode="markers", marker=marker,
         text=[f"{v:.3g}" for v in mean[value]],
         hovertemplate=f"{x} %{{x:.4g}}, {y} %{{y:.4g}}: %{{text}}<extra></extra>",
@@ -158,19 +150,19 @@ def distribution(
     >>> [box.name for box in br.plot.distribution(table, "rms", by="faulty").data]
     ['faulty: no', 'faulty: yes']
     """
-    from .._base.plotly import Box, Figure
-
     table = _table(done, (value,) if by is None else (value, by)).drop_nulls(value)
     groups = {"all cases": table}
     if by is not None:
         parts = table.sort(by).group_by(by, maintain_order=True)
         of = _FAULTS.get(by, parameter(by))
         groups = {f"{of}: {_named(key)}": part for (key,), part in parts}
-    fig = fig if fig is not None else Figure()
+    fig = fig if fig is not None else go.Figure()
     for number, (name, part) in enumerate(groups.items()):
         style = {"color": COLOURS[number % len(COLOURS)], "symbol": MARKERS[number % len(MARKERS)]}
         points = "all" if part.height <= 200 else "outliers"
-        box = Box(y=part[value].to_numpy(), name=name, boxpoints=points, marker=style, jitter=0.5)
+        box = go.Box(
+            y=part[value].to_numpy(), name=name, boxpoints=points, marker=style, jitter=0.5
+        )
         fig.add_trace(box)
     fig.update_yaxes(title_text=wrapped(feature(value), _LINE))
     if by is not None:

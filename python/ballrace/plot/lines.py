@@ -5,12 +5,11 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from .._base.libraries import go
 from .style import SYMBOLS
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
-
-    import plotly.graph_objects as go
 
     from ..spectra.bands import FaultBand
 
@@ -23,15 +22,13 @@ def add_lines(fig: go.Figure, bands: Sequence[FaultBand], top: float) -> None:
     The labels are upright, so that those of neighbours do not overlap. With several faults in one picture only the
     harmonics are labelled; sidebands show their name under the pointer.
     """
-    from .._base.plotly import Scatter
-
     faults = list(dict.fromkeys(band.fault for band in bands))
     for fault in faults:
         own = [band for band in bands if band.fault == fault]
         name, colour, dash, marker = SYMBOLS[fault]
         first = next((b for b in own if b.harmonic == 1 and not b.sideband), own[0])
         text = [part for band in own for part in (band.label, band.label, None)]
-        trace = Scatter(
+        trace = go.Scatter(
             x=[part for band in own for part in (band.centre, band.centre, None)],
             y=[part for _ in own for part in (0.0, top, None)],
             mode="lines+markers",

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .._base.libraries import go
 from ..errors import SceneError
 from ..signals import Signals
 from ..statics import Equilibrium, LoadDistribution
@@ -16,7 +17,6 @@ from .times import finish_stack, share_scale, stack
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    import plotly.graph_objects as go
     from numpy.typing import NDArray
 
     from ..paper.case import Balls
@@ -157,12 +157,10 @@ def slice_forces(
     >>> scene = br.bearing("6205", speed_rpm=1800.0).replace({"probes.slices": probe})
     >>> fig = br.plot.slice_forces(br.simulate(scene, duration=1e-4))
     """
-    from .._base.plotly import Bar
-
     tables = _tables(cases)
     fig = fig if fig is not None else stack(tuple(tables))
     for place, (label, table) in enumerate(tables.items(), start=1):
-        bars = Bar(
+        bars = go.Bar(
             x=1e3 * table["z"],
             y=table["force"],
             width=1e3 * table["width"],
@@ -239,10 +237,8 @@ def _polar_line(
     *,
     marked: bool = True,
 ) -> Any:
-    from .._base.plotly import Scatterpolar
-
     kind = number % len(COLOURS)
-    return Scatterpolar(
+    return go.Scatterpolar(
         theta=np.degrees(angle),
         r=load,
         name=name,

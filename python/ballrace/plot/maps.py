@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import spectra
+from .._base.libraries import go
 from .._base.numbers import real_row
 from ..errors import SceneError
 from ..recordings.columns import Columns
@@ -18,7 +19,6 @@ from .style import SYMBOLS, finished
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    import plotly.graph_objects as go
     from numpy.typing import ArrayLike, NDArray
 
     from ..bearings import Bearing
@@ -76,11 +76,9 @@ def spectrogram(
     >>> import ballrace as br
     >>> fig = br.plot.spectrogram(br.simulate(br.bearing("6205", speed_rpm=1800.0), duration=0.05))
     """
-    from .._base.plotly import Figure
-
     signal = source(of, column, fs)
     f, t, value = spectra.spectrogram(signal.x, signal.fs, length)
-    fig = fig if fig is not None else Figure()
+    fig = fig if fig is not None else go.Figure()
     fig.add_trace(_shaded(t + signal.start, f, value, "time %{x:.4f} s, %{y:.0f} Hz: %{z:.1f} dB"))
     fig.update_xaxes(title_text="time / s")
     fig.update_yaxes(title_text="frequency / Hz")
@@ -148,8 +146,6 @@ def order_map(
     >>> scene = br.bearing("6205", speed_rpm=1800.0).replace({"drive": br.scene.SpeedDrive(speed)})
     >>> fig = br.plot.order_map(br.simulate(scene, duration=0.2))
     """
-    from .._base.plotly import Figure
-
     if not 0.0 < highest < math.inf:
         raise SceneError("highest", str(highest), "an order above 0")
     rate = None if hasattr(of, "fs") else 1.0
@@ -167,7 +163,7 @@ def order_map(
     length = min(length, value.size // 2)
     f, t, power = spectra.spectrogram(value, rate_of_turns, length, max(length // 16, 1))
     shown = f <= highest
-    fig = fig if fig is not None else Figure()
+    fig = fig if fig is not None else go.Figure()
     fig.add_trace(
         _shaded(t, f[shown], power[shown], "turn %{x:.1f}, order %{y:.2f}: %{z:.1f} dB", 40.0)
     )
@@ -289,9 +285,7 @@ def kurtogram(
     >>> len(fig.data[0].y) == len(set(found.level))
     True
     """
-    from .._base.plotly import Figure, Heatmap
-
-    fig = fig if fig is not None else Figure()
+    fig = fig if fig is not None else go.Figure()
     if not isinstance(found, spectra.Kurtogram):
         found = spectra.kurtogram(found, fs, narrowest)
     levels = np.unique(found.level)
@@ -300,7 +294,7 @@ def kurtogram(
     z = np.array([_level(found, level, middles) for level in levels])
     widths = [float(found.high[np.argmax(found.level == level)]) for level in levels]
     names = [f"{width:.0f} Hz" for width in widths]
-    heatmap = Heatmap(
+    heatmap = go.Heatmap(
         x=edges, y=list(range(len(levels))), z=z, colorscale=SHADES,
         colorbar={"title": {"text": "kurtosis"}, "thickness": 14},
         hovertemplate="%{x:.0f} Hz: kurtosis %{z:.2f}<extra></extra>",
@@ -341,8 +335,6 @@ def _shaded(
     span: float = 60.0,
 ) -> Any:
     """Return a heat map in decibels down to ``-span``, with no more cells than a screen shows."""
-    from .._base.plotly import Heatmap
-
     x, power = x[:: _step(x.size)], power[:, :: _step(x.size)]
     every = _step(y.size)
     if every > 1:  # the largest of neighbours, so that no line is lost
@@ -351,7 +343,7 @@ def _shaded(
         y = y[:kept].reshape(-1, every).mean(axis=1)
     largest = float(power.max(initial=0.0)) or 1.0
     level = 10.0 * np.log10(np.maximum(power / largest, 10.0 ** (-0.1 * span)))
-    return Heatmap(
+    return go.Heatmap(
         x=x, y=y, z=level.astype(np.float32), colorscale=SHADES, zmin=-span, zmax=0.0,
         colorbar={"title": {"text": "dB"}, "thickness": 14}, hovertemplate=hover + "<extra></extra>",
     )  # fmt: skip

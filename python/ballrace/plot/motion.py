@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from .._base.libraries import go
 from ..errors import SceneError
 from ..scene import MotionProbe
 from ..scene.defect import widest
@@ -15,7 +16,6 @@ from .sources import check_columns, check_run
 from .style import COLOURS, DASHES, finished
 
 if TYPE_CHECKING:
-    import plotly.graph_objects as go
     from numpy.typing import NDArray
 
     from ..recordings.columns import Columns
@@ -64,8 +64,6 @@ def orbit(
     >>> import ballrace as br
     >>> fig = br.plot.orbit(br.simulate(br.bearing("6205", speed_rpm=1800.0), duration=0.02))
     """
-    from .._base.plotly import Figure, Scatter
-
     check_columns(out, "out")
     kept = out.t >= skip
     if not kept.any():
@@ -76,12 +74,12 @@ def orbit(
         x, y = x - out["outer.x"][kept], y - out["outer.y"][kept]
     x, y = x[-_LONGEST:], y[-_LONGEST:]
     part = f", last {x.size / out.fs:.3g} s" if x.size < kept.sum() else ""
-    fig = fig if fig is not None else Figure()
+    fig = fig if fig is not None else go.Figure()
     line = {"color": COLOURS[0], "width": 1, "shape": "spline"}
-    path = Scatter(
+    path = go.Scatter(
         x=1e6 * x, y=1e6 * y, mode="lines", line=line, name=f"path of the shaft's centre{part}"
     )
-    start = Scatter(
+    start = go.Scatter(
         x=[1e6 * x[0]], y=[1e6 * y[0]], mode="markers", name="start",
         marker={"symbol": "diamond", "size": 10, "color": COLOURS[1]},
     )  # fmt: skip
@@ -129,11 +127,9 @@ def ball_path(
     >>> out = br.simulate(scene.replace({"probes.ball": ball}), duration=0.1)
     >>> fig = br.plot.ball_path(out)
     """
-    from .._base.plotly import Figure
-
     check_run(out)
     name, race, width, radius = _chosen(out, defect)
-    fig = fig if fig is not None else Figure()
+    fig = fig if fig is not None else go.Figure()
     for ball, (arc, height) in _relative(out, name, race, radius).items():
         for start, stop in _passes(arc, reach * width):
             _pass(fig, arc[start:stop], height[start:stop], f"{ball}, {1e3 * out.t[start]:.1f} ms")
@@ -149,13 +145,11 @@ def ball_path(
 
 
 def _pass(fig: go.Figure, arc: Array, height: Array, name: str) -> None:
-    from .._base.plotly import Scatter
-
     number = len(fig.data) % len(COLOURS)
     ends = 0.5 * (height[0] + height[-1])
     x, y = min_max(1e3 * arc, 1e6 * (height - ends), 2000)
     fig.add_trace(
-        Scatter(
+        go.Scatter(
             x=x, y=y, mode="lines", name=name,
             line={"color": COLOURS[number], "dash": DASHES[number], "width": 1.5},
         )

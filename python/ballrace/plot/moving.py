@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .._base.libraries import go
 from ..scene.defect import widest
 from .maps import SHADES
 from .outlines import circle, outlines, race_radius
@@ -50,8 +51,6 @@ class Moving:
 
     def still(self) -> Iterator[Any]:
         """Give what stands in the front view: circles of the races, outer defects unless they turn, a scale."""
-        from .._base.plotly import Scatter
-
         row, shapes = self._of_row, self._shapes
         pitch, half = 0.5e3 * row.pitch_diameter, 0.5e3 * row.ball_diameter
         turn = np.linspace(0.0, 2.0 * np.pi, 121)
@@ -61,7 +60,7 @@ class Moving:
             (pitch - half, 2.0),
             (shapes.bore, 1.2),
         ):
-            yield Scatter(x=radius * np.cos(turn), y=radius * np.sin(turn), mode="lines",
+            yield go.Scatter(x=radius * np.cos(turn), y=radius * np.sin(turn), mode="lines",
                           line={"color": _INK, "width": width}, hoverinfo="skip")  # fmt: skip
         for name, defect in self._scene.defects.items():
             if defect.row == self._row and not self._is_carried(defect):
@@ -75,18 +74,16 @@ class Moving:
             "color": [0.0], "cmin": 0.0, "cmax": self._largest, "colorscale": SHADES, "size": 1e-3,
             "showscale": True, "colorbar": bar,
         }  # fmt: skip
-        yield Scatter(x=[None], y=[None], mode="markers", marker=scale, hoverinfo="skip")
+        yield go.Scatter(x=[None], y=[None], mode="markers", marker=scale, hoverinfo="skip")
 
     def section_still(self) -> Iterator[Any]:
         """Give the rings in the section."""
-        from .._base.plotly import Scatter
-
         for half in (1.0, -1.0):
             for outline, colour in (
                 (self._shapes.outer, "#dfe6ee"),
                 (self._shapes.inner, "#cfd9e4"),
             ):
-                yield Scatter(x=outline[:, 0], y=half * outline[:, 1], fill="toself", fillcolor=colour,
+                yield go.Scatter(x=outline[:, 0], y=half * outline[:, 1], fill="toself", fillcolor=colour,
                               mode="lines", line={"color": _INK, "width": 1}, hoverinfo="skip")  # fmt: skip
 
     def at(self, k: int) -> Iterator[tuple[int, Any]]:
@@ -117,8 +114,6 @@ class Moving:
 
     def _bars(self, places: Array, loads: Array) -> Any:
         """Bars from the outside, as long as the loads on the outer race are large."""
-        from .._base.plotly import Scatter
-
         angle = np.arctan2(places[:, 1], places[:, 0])
         inside = 1.04 * self._shapes.outside
         outside = inside + _BAR * self._shapes.outside * loads / self._largest
@@ -126,14 +121,12 @@ class Moving:
         x = np.column_stack([inside * np.cos(angle), outside * np.cos(angle), gap]).ravel()
         y = np.column_stack([inside * np.sin(angle), outside * np.sin(angle), gap]).ravel()
         line = {"color": _INK, "width": 4}
-        return Scatter(
+        return go.Scatter(
             x=_short(x), y=_short(y), mode="lines", line=line, name="load", hoverinfo="skip"
         )
 
     def _cage(self, places: Array) -> Any:
         """Bars of the cage: arcs on the pitch circle between neighbouring balls."""
-        from .._base.plotly import Scatter
-
         angle = np.arctan2(places[:, 1], places[:, 0])
         radius = 0.5e3 * self._of_row.pitch_diameter
         pitch, free = 2.0 * math.pi / angle.size, 0.56e3 * self._of_row.ball_diameter / radius
@@ -141,19 +134,17 @@ class Moving:
         arcs = np.append(angle[:, None] + within, np.full((angle.size, 1), np.nan), axis=1).ravel()
         line = {"color": "#8a6d3b", "width": 4}
         x, y = _short(radius * np.cos(arcs)), _short(radius * np.sin(arcs))
-        return Scatter(x=x, y=y, mode="lines", line=line, name="cage", hoverinfo="skip")
+        return go.Scatter(x=x, y=y, mode="lines", line=line, name="cage", hoverinfo="skip")
 
     def _turned(self, k: int) -> Any:
         """Mark the inner ring, which shows how far the shaft has turned."""
-        from .._base.plotly import Scatter
-
         angle = float(self._theta[k])
         ends = np.array(
             [self._shapes.bore, 0.5e3 * (self._of_row.pitch_diameter - self._of_row.ball_diameter)]
         )
         line = {"color": _INK, "width": 3}
         x, y = _short(ends * math.cos(angle)), _short(ends * math.sin(angle))
-        return Scatter(x=x, y=y, mode="lines", line=line, name="shaft", hoverinfo="skip")
+        return go.Scatter(x=x, y=y, mode="lines", line=line, name="shaft", hoverinfo="skip")
 
     def _is_carried(self, defect: Defect) -> bool:
         return defect.on != "outer_race" or self._scene.outer_speed is not None
@@ -186,20 +177,16 @@ class Moving:
 
 def _mark(centre: tuple[float, float], radius: float, angle: float, half: float, name: str) -> Any:
     """Draw a thick piece of a circle; at least two degrees, so that it is seen."""
-    from .._base.plotly import Scatter
-
     arc = np.linspace(angle - max(half, 0.02), angle + max(half, 0.02), 7)
     line = {"color": COLOURS[1], "width": 7}
     px = _short(centre[0] + radius * np.cos(arc))
     py = _short(centre[1] + radius * np.sin(arc))
-    return Scatter(x=px, y=py, mode="lines", line=line, name=name, hovertemplate=name)
+    return go.Scatter(x=px, y=py, mode="lines", line=line, name=name, hovertemplate=name)
 
 
 def _filled(x: Array, y: Array, colour: str) -> Any:
-    from .._base.plotly import Scatter
-
     line = {"color": _INK, "width": 1}
-    return Scatter(
+    return go.Scatter(
         x=_short(x),
         y=_short(y),
         fill="toself",

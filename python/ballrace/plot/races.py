@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from .._base.libraries import go
 from ..scene.defect import extent, widest
 from ..statics import Equilibrium, equilibrium
 from .ellipse import semi_axes
@@ -15,7 +16,6 @@ from .outlines import race_radius
 from .style import COLOURS, finished
 
 if TYPE_CHECKING:
-    import plotly.graph_objects as go
     from numpy.typing import NDArray
 
     from ..scene import Defect, Row, Scene
@@ -93,7 +93,7 @@ def unrolled(
 def _contacts(
     fig: go.Figure, row: Row, eq: Equilibrium, *, number: int, race: Literal["outer", "inner"], largest: float,
 ) -> None:  # fmt: skip
-    from .._base.plotly import Scatter, sample_colorscale
+    from .._base.plotly import sample_colorscale
 
     place = _RACES.index(race) + 1
 
@@ -105,7 +105,7 @@ def _contacts(
     cosine = np.abs(np.cos(np.nan_to_num(getattr(eq, f"{race}_angle")[own])))
     for k in np.flatnonzero(load > 0.0):
         shade = sample_colorscale(SHADES, [0.85 * load[k] / largest])[0]
-        ellipse = Scatter(
+        ellipse = go.Scatter(
             x=angle[k] + half[k] * np.cos(_TURN), y=1e3 * (z[k] + across[k] * cosine[k] * np.sin(_TURN)),
             fill="toself", mode="lines", line={"color": "#333", "width": 1}, fillcolor=shade, hoverinfo="text",
             text=f"{load[k]:.0f} N, {1e-6 * pressure[k]:.0f} MPa, {2e3 * across[k]:.2f} × {2e3 * along[k]:.2f} mm",
@@ -119,7 +119,7 @@ def _contacts(
         )  # fmt: skip
     low, high = _extent(load, z, across * cosine)
     fig.update_yaxes(range=[low - 0.1 * (high - low), high + 0.5 * (high - low)], row=place, col=1)
-    free = Scatter(
+    free = go.Scatter(
         x=angle[load <= 0.0], y=np.zeros(int((load <= 0.0).sum())), mode="markers",
         hovertemplate="no load<extra></extra>", marker={"symbol": "circle-open", "size": 8, "color": "#888"},
     )  # fmt: skip
@@ -134,8 +134,6 @@ def _extent(load: Array, z: Array, reach: Array) -> tuple[float, float]:
 
 
 def _defect(fig: go.Figure, row: Row, name: str, defect: Defect, place: int) -> None:
-    from .._base.plotly import Scatter
-
     race = _RACES[place - 1]
     width = widest(defect)
     half = math.degrees(0.5 * width / race_radius(row, race))
@@ -143,7 +141,7 @@ def _defect(fig: go.Figure, row: Row, name: str, defect: Defect, place: int) -> 
     assert not isinstance(defect.axial_offset, str)
     z = 1e3 * defect.axial_offset
     end = 0.5e3 * extent(defect)
-    box = Scatter(
+    box = go.Scatter(
         x=[middle + s * half for s in (-1, 1, 1, -1, -1)], y=[z + s * end for s in (-1, -1, 1, 1, -1)],
         mode="lines", line={"color": COLOURS[1], "width": 2, "dash": "solid"}, fill="toself",
         fillcolor="rgba(200,69,47,0.25)", hoverinfo="text",

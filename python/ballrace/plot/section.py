@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from .._base.libraries import go
 from ..frequencies.operating import operating_angle
 from ..scene.defect import extent
 from ..scene.scene import checked_scene
@@ -14,7 +15,6 @@ from .outlines import circle, on_groove, outlines
 from .style import COLOURS, finished
 
 if TYPE_CHECKING:
-    import plotly.graph_objects as go
     from numpy.typing import NDArray
 
     from ..scene import Defect, Row, Scene
@@ -62,10 +62,8 @@ def section(
     >>> [a.text for a in fig.layout.annotations if "race" in a.text]
     ['spall on the outer race, at −90°']
     """
-    from .._base.plotly import Figure
-
     scene = checked_scene(scene)
-    fig = fig if fig is not None else Figure()
+    fig = fig if fig is not None else go.Figure()
     shapes = outlines(scene)
     for half in (1.0, -1.0):
         for ring, name in (("outer", "outer ring"), ("inner", "inner ring")):
@@ -92,10 +90,8 @@ def section(
 
 
 def _filled(fig: go.Figure, half: float, outline: Array, colour: str, name: str) -> None:
-    from .._base.plotly import Scatter
-
     fig.add_trace(
-        Scatter(
+        go.Scatter(
             x=outline[:, 0], y=half * outline[:, 1], fill="toself", mode="lines", fillcolor=colour,
             line={"color": _INK, "width": 1.2}, hoverinfo="text", text=name, name=name,
         )
@@ -103,10 +99,8 @@ def _filled(fig: go.Figure, half: float, outline: Array, colour: str, name: str)
 
 
 def _line(fig: go.Figure, x: list[float], y: list[float], **line: Any) -> None:
-    from .._base.plotly import Scatter
-
     style = {"color": _INK, "width": 1, **line}
-    fig.add_trace(Scatter(x=x, y=y, mode="lines", line=style, hoverinfo="skip"))
+    fig.add_trace(go.Scatter(x=x, y=y, mode="lines", line=style, hoverinfo="skip"))
 
 
 def _angle(fig: go.Figure, row: Row, angle: float, *, named: bool) -> None:

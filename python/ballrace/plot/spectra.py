@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from .. import spectra
+from .._base.libraries import go
 from ..errors import SceneError
 from .lines import add_lines
 from .sources import faults_of, rates_of, row_of, source, spin_of
@@ -15,7 +16,6 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     import numpy as np
-    import plotly.graph_objects as go
     from numpy.typing import NDArray
 
     from ..bearings import Bearing
@@ -98,8 +98,6 @@ def envelope_spectrum(
     >>> [a.text for a in fig.layout.annotations][:3]
     ['BPFI − f<sub>r</sub>', 'BPFI', 'BPFI + f<sub>r</sub>']
     """
-    from .._base.plotly import Figure, Scatter
-
     signal = source(of, column, fs)
     row = row_of(of) if row is None else row
     found = rates_of(of, rates, row, bearing, speed_rpm)
@@ -108,12 +106,14 @@ def envelope_spectrum(
     spin = spin_of(of, found, row)
     end = _limit(limit, f, found, chosen, harmonics, spin=spin)
     shown = (f > 0.0) & (f <= end)
-    fig = fig if fig is not None else Figure()
+    fig = fig if fig is not None else go.Figure()
     what = "squared envelope" if squared else "envelope"
     # Fault lines, which have markers, are no spectra.
     kind = sum(trace.mode == "lines" for trace in fig.data) % len(COLOURS)
     style = {"color": COLOURS[kind], "dash": DASHES[kind], "width": 1.4}
-    fig.add_trace(Scatter(x=f[shown], y=value[shown], name=name or what, mode="lines", line=style))
+    fig.add_trace(
+        go.Scatter(x=f[shown], y=value[shown], name=name or what, mode="lines", line=style)
+    )
     if found is not None:
         top = 1.05 * float(value[shown].max(initial=0.0)) or 1.0
         lines = spectra.fault_bands(
@@ -177,13 +177,11 @@ def psd(
     >>> import ballrace as br
     >>> fig = br.plot.psd(br.simulate(br.bearing("6205", speed_rpm=1800.0), duration=0.02), "outer.ay")
     """
-    from .._base.plotly import Figure, Scatter
-
     signal = source(of, column, fs)
     f, value = spectra.psd(signal.x, signal.fs, length)
-    fig = fig if fig is not None else Figure()
+    fig = fig if fig is not None else go.Figure()
     style = {"color": COLOURS[0], "width": 1.2}
-    fig.add_trace(Scatter(x=f[1:], y=value[1:], name=signal.name, mode="lines", line=style))
+    fig.add_trace(go.Scatter(x=f[1:], y=value[1:], name=signal.name, mode="lines", line=style))
     if band is not None:
         fig.add_vrect(x0=band[0], x1=band[1], fillcolor=COLOURS[1], opacity=0.12, line_width=0,
                       annotation_text="band of the envelope", annotation_position="top left")  # fmt: skip

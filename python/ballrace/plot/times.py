@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .._base.libraries import go
 from ..channel import default_column
 from ..errors import SceneError
 from ..spectra import squared_envelope
@@ -18,7 +19,6 @@ from .style import COLOURS, DASHES, SYMBOLS, finished, title, unit, words
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    import plotly.graph_objects as go
     from numpy.typing import NDArray
 
     from ..bearings import Bearing
@@ -182,14 +182,12 @@ def impacts(
     >>> [trace.name for trace in fig.data]
     ['vertical acceleration, housing sensor', 'BPFO, 107.7 Hz']
     """
-    from .._base.plotly import Figure, Scatter
-
     signal = source(of, column, fs)
     row = row_of(of) if row is None else row
     found = rates_of(of, rates, row, bearing, speed_rpm)
     if found is None and (rates is not None or faults is not None):
         raise SceneError("rates", "None", "fault frequencies, from ballrace.fault_frequencies")
-    fig = fig if fig is not None else Figure()
+    fig = fig if fig is not None else go.Figure()
     fig.add_trace(_line(signal.t, signal.x, signal.name, 0))
     top = 1.12 * float(np.abs(signal.x).max(initial=0.0)) or 1.0
     for fault in faults_of(of, faults, row) if found is not None else ():
@@ -201,7 +199,7 @@ def impacts(
         # So small that those of neighbours do not meet on a phone.
         mark = {"symbol": marker, "size": min(9.0, max(3.0, 200.0 / at.size)), "color": colour}
         thinned = f", every {every} hits" if every > 1 else ""
-        trace = Scatter(
+        trace = go.Scatter(
             x=at, y=np.full(at.size, top), mode="markers", marker=mark, name=f"{name}, {rate:.1f} Hz{thinned}",
             hovertemplate="a hit is expected at %{x:.4f} s",
         )  # fmt: skip
@@ -274,8 +272,6 @@ def finish_stack(
 
 
 def _line(t: NDArray[np.float64], values: NDArray[np.float64], name: str, place: int) -> Any:
-    from .._base.plotly import Scatter
-
     t, values = min_max(t, values, _MANY)
     style = {"color": COLOURS[place % len(COLOURS)], "width": 1, "dash": DASHES[0]}
-    return Scatter(x=t, y=values, name=name, mode="lines", line=style)
+    return go.Scatter(x=t, y=values, name=name, mode="lines", line=style)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from .._base.libraries import go
 from ..frequencies.operating import operating_angle
 from ..scene.defect import extent
 from ..statics import equilibrium
@@ -73,13 +74,11 @@ class Turning:
 
     def still(self) -> Iterator[Any]:
         """Give the rings, cut open, defects of an outer race that stands, and the cage, alike however it turns."""
-        from .._base.plotly import Mesh3d, Scatter3d
-
         kinds = {"outer ring": ("outer", "#9fb3c8", 0.3), "inner ring": ("inner", "#8fa3ba", 0.55)}
         for name, (shape, colour, opacity) in kinds.items():
             outline = 1e-3 * _thinned(getattr(self._shapes, shape))
             mesh = ring(outline, _OPEN if shape == "outer" else 0.0, 2.0 * math.pi)
-            yield Mesh3d(
+            yield go.Mesh3d(
                 **self._axes(mesh.points), **_corners(mesh.triangles), color=colour, opacity=opacity, name=name,
                 flatshading=True, hoverinfo="skip", lighting=_LIGHT,
             )  # fmt: skip
@@ -87,19 +86,17 @@ class Turning:
         cage = _arc(0.5 * self._of_row.pitch_diameter, around, self._of_row.axial_position)
         stands = {} if self._outer_turns else self._damages("outer_race", 0.0)
         for name, points in ({"cage": cage} | stands).items():
-            yield Scatter3d(**self._axes(points), **_style(name))
+            yield go.Scatter3d(**self._axes(points), **_style(name))
 
     def at(self, k: int) -> list[Any]:
         """Return what changes of :meth:`first` at a sample, in its order: all but places along the axis."""
-        from .._base.plotly import Mesh3d, Scatter3d
-
         shade = np.round(1e-6 * self._pressures[:, :, k].ravel()).astype(np.int16)
         patches = self._patches(k)
         found = [
-            Mesh3d(self._across(self._balls(k))),
-            Mesh3d(self._across(patches), intensity=np.repeat(shade, len(self._patch.points))),
+            go.Mesh3d(self._across(self._balls(k))),
+            go.Mesh3d(self._across(patches), intensity=np.repeat(shade, len(self._patch.points))),
         ]
-        return found + [Scatter3d(self._across(line)) for line in self._lines(k).values()]
+        return found + [go.Scatter3d(self._across(line)) for line in self._lines(k).values()]
 
     def first(self, k: int) -> list[Any]:
         """Return balls, contact patches, the shaft's mark and defects of the inner race, whole."""

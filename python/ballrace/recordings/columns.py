@@ -7,7 +7,7 @@ from abc import abstractmethod
 from collections.abc import ItemsView, Iterable, Iterator, KeysView, Mapping, ValuesView
 from typing import TYPE_CHECKING, Any, Self, TypeVar, overload
 
-from .._base.libraries import needed
+from .._base.libraries import needed, pl
 from ..channel import Channel, default_column
 from ..errors import SceneError
 from .samples import Samples
@@ -18,7 +18,6 @@ if TYPE_CHECKING:
 
     import numpy as np
     import pandas as pd
-    import polars as pl
     import xarray as xr
     from numpy.typing import NDArray
 
@@ -151,8 +150,6 @@ class Columns:
 
     def to_polars(self) -> pl.DataFrame:
         """Return a table with the time ``t`` and all columns."""
-        from .._base.polars import pl
-
         return pl.DataFrame({"t": self.t, **self})
 
     def to_pandas(self) -> pd.DataFrame:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .._base.libraries import scipy
 from ..errors import FileError, SceneError
 from .datasets import cwru, lms, mfpt, paderborn
 from .hierarchical import contents
@@ -33,8 +34,6 @@ def write(samples: Samples, temporary: Path, path: Path) -> None:
 
     The number in the keys is that of the file's name, ``105.mat``, or 1.
     """
-    from scipy.io import savemat
-
     number = f"X{int(path.stem) if path.stem.isdecimal() else 1:03d}"
     variables: dict[str, Any] = {}
     for name, x in samples.columns.items():
@@ -54,7 +53,7 @@ def write(samples: Samples, temporary: Path, path: Path) -> None:
         "ballrace": samples.header(),
         "keys": np.array(keys, dtype=object),
     }
-    savemat(temporary, variables, appendmat=False, do_compression=True)
+    scipy.io.savemat(temporary, variables, appendmat=False, do_compression=True)
 
 
 def read(path: Path, reading: Reading) -> Samples:
@@ -77,14 +76,12 @@ def read(path: Path, reading: Reading) -> Samples:
 
 def _tree(path: Path) -> Tree:
     """Return the variables of a file of any version."""
-    from scipy.io import loadmat
-
     with path.open("rb") as file:
         start = file.read(20)
     if start.startswith((b"MATLAB 7.3", b"\x89HDF")):
         return contents(path, matlab=True)
     try:
-        found = loadmat(path, squeeze_me=True, struct_as_record=False, appendmat=False)
+        found = scipy.io.loadmat(path, squeeze_me=True, struct_as_record=False, appendmat=False)
     except Exception as error:
         raise FileError(str(path), f"not a MATLAB file, or damaged ({error})") from error
     return {name: _plain(value) for name, value in found.items() if not name.startswith("__")}

@@ -6,6 +6,7 @@ import json
 from typing import TYPE_CHECKING
 
 from .._base.interrupt import interrupted_once
+from .._base.libraries import pl
 from .._io.parquet import columns_and_rows, read_sealed, sealing
 from .._results.file import described, unless_damaged
 from .._results.file import samples as column_of
@@ -21,8 +22,6 @@ from .titles import named
 if TYPE_CHECKING:
     from pathlib import Path
 
-    import polars as pl
-
     from .reading import Reading
 
 _HEADER = "ballrace.recording"
@@ -31,8 +30,6 @@ _HEADER = "ballrace.recording"
 
 def write(samples: Samples, temporary: Path, path: Path) -> None:
     """Write times and columns, their metadata, and a hash of everything."""
-    from .._base.polars import pl
-
     table = pl.DataFrame({"t": samples.t, **samples.columns})
     entries = {_HEADER: samples.header()}
     with sealing(temporary, path):
@@ -68,8 +65,6 @@ def read(path: Path, reading: Reading) -> Samples:
 
 def _column(path: Path, series: pl.Series) -> Column:
     """Return a column as numbers; dates and times as seconds."""
-    from .._base.polars import pl
-
     name, unit = named(series.name)
     kind = series.dtype
     if kind.is_temporal() and not series.null_count():

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .._base.libraries import scipy
 from ..errors import FileError, SceneError
 from .sampled import cut
 from .samples import Samples, from_header
@@ -30,8 +31,6 @@ _FULL = {"u1": 128.0, "i2": 2.0**15, "i4": 2.0**31}
 
 def write(samples: Samples, temporary: Path, path: Path) -> None:
     """Write the columns as channels; the format holds whole rates only."""
-    from scipy.io import wavfile
-
     fs = samples.fs or 0.0
     if fs != round(fs) or fs >= 2**32:
         raise SceneError(
@@ -43,7 +42,7 @@ def write(samples: Samples, temporary: Path, path: Path) -> None:
     if np.any(np.isinf(data) & np.isfinite(wide)):
         raise SceneError("path", str(path), "a format for numbers that 32 bits do not hold")
     buffer = io.BytesIO()
-    wavfile.write(buffer, round(fs), data)
+    scipy.io.wavfile.write(buffer, round(fs), data)
     temporary.write_bytes(_commented(buffer.getvalue(), samples.header()))
 
 
@@ -55,16 +54,14 @@ def read(path: Path, reading: Reading) -> Samples:
     FileError
         It is damaged, or no WAV.
     """
-    from scipy.io import wavfile
-
     content = path.read_bytes()
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("error", wavfile.WavFileWarning)
+            warnings.simplefilter("error", scipy.io.wavfile.WavFileWarning)
             warnings.filterwarnings("ignore", message="Chunk .* not understood")
             # Of a file it would set aside what a header of 180 bytes declares.
-            fs, data = wavfile.read(io.BytesIO(content))
-    except (ValueError, EOFError, struct.error, wavfile.WavFileWarning) as error:
+            fs, data = scipy.io.wavfile.read(io.BytesIO(content))
+    except (ValueError, EOFError, struct.error, scipy.io.wavfile.WavFileWarning) as error:
         raise FileError(str(path), f"not a WAV file, or damaged ({error})") from error
     if not data.size:
         raise FileError(str(path), "not a WAV file, or damaged: it has no samples")

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .._base.libraries import pl
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -24,8 +26,6 @@ def seconds(stamps: NDArray[Any]) -> tuple[NDArray[np.float64], float, str]:
 
     The time of day alone counts; where it falls by hours, a day has passed. A date alone is midnight.
     """
-    from .._base.polars import pl
-
     texts = pl.Series(stamps, dtype=pl.String)
     first = str(texts[0]) if texts.len() else ""
     pattern = _COMPACT if first[8:9] == "T" else _CLOCK

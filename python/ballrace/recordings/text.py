@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .._base.libraries import pl
 from .._io.parquet import writing_to
 from ..errors import FileError, SceneError
 from .fields import kind_of, kinds_of
@@ -22,7 +23,6 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from pathlib import Path
 
-    import polars as pl
     from numpy.typing import NDArray
 
     from .layout import Layout
@@ -50,8 +50,6 @@ _PROBE = 1 << 16
 
 def write(samples: Samples, temporary: Path, path: Path) -> None:
     """Write times and columns with commas between them, all digits, and units in the header."""
-    from .._base.polars import pl
-
     columns = {"t [s]": samples.t}
     for name, x in samples.columns.items():
         unit = samples.units.get(name)
@@ -216,8 +214,6 @@ class _Body:
 
     def _parsed(self, piece: bytes) -> pl.DataFrame | None:
         """Return the rows of a piece, None where some of its lines are none."""
-        from .._base.polars import pl
-
         layout = self._layout
         schema: dict[str, Any] = {
             str(place): pl.Float64 if kind == "n" else pl.String

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .._base.arguments import whole_text
+from .._base.libraries import pl
 from .._base.numbers import counted
 from ..errors import SceneError
 
 if TYPE_CHECKING:
-    import polars as pl
     from numpy.typing import NDArray
 
     from .samples import Samples
@@ -73,8 +73,6 @@ def windows(
     bearing_id: str | int | None,
 ) -> pl.DataFrame:
     """Return the table that :meth:`Columns.to_windows` describes."""
-    from .._base.polars import pl
-
     count = samples.n_samples
     length = counted("length", length, 1, count)
     hop = length if hop is None else counted("hop", hop, 1)
@@ -115,8 +113,6 @@ def _check_labels(label: object, bearing_id: object) -> None:
 
 
 def _pieces(name: str, x: NDArray[np.float64], length: int, hop: int) -> pl.Series:
-    from .._base.polars import pl
-
     largest = np.abs(x).max(initial=0.0, where=np.isfinite(x))
     if largest > np.finfo(np.float32).max:
         raise SceneError(name, f"{largest:.3g}", "a signal within 3.4e38: windows are float32")
@@ -126,8 +122,6 @@ def _pieces(name: str, x: NDArray[np.float64], length: int, hop: int) -> pl.Seri
 
 def _types() -> dict[str, Any]:
     """Return the types of the nested columns, which the first rows need not show."""
-    from .._base.polars import pl
-
     number, text, whole = pl.Float64, pl.String, pl.Int64
     geometry = dict.fromkeys(("ball_diameter", "pitch_diameter", "contact_angle"), number)
     sizes = dict.fromkeys(("angle", "width", "length"), number)

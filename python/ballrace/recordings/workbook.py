@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from .._base.libraries import needed
+from .._base.libraries import needed, pl
 from ..errors import FileError
 from .layout import layout_of
 from .limits import check_declared
@@ -14,8 +14,6 @@ from .text import columns_of
 
 if TYPE_CHECKING:
     from pathlib import Path
-
-    import polars as pl
 
     from .reading import Reading
     from .samples import Samples
@@ -63,8 +61,6 @@ def read(path: Path, reading: Reading) -> Samples:
 
 def _cells(path: Path, sheet: int, *, kinds: str = "", **options: int) -> pl.DataFrame:
     """Return cells as text, or those of a table as what they are: as text, numbers have nine digits."""
-    from .._base.polars import pl
-
     schema: dict[str, Any] = {
         f"column_{place}": pl.Float64 if kind == "n" else pl.String
         for place, kind in enumerate(kinds)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from .._base.libraries import pl
 from ..errors import SceneError
 from ..scene.defect import SURFACES
 from . import words
@@ -11,8 +12,6 @@ from .page import Page
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
-
-    import polars as pl
 
     from ..campaigns import Campaign
 
@@ -122,8 +121,6 @@ def _fault(table: pl.DataFrame) -> str | None:
 
 
 def _add_troubles(page: Page, table: pl.DataFrame, varied: list[str]) -> None:
-    from .._base.polars import pl
-
     page.section("Failures and warnings")
     failed = table.filter(status="failed")
     warned = table.filter(pl.col("warnings").is_not_null())

@@ -10,6 +10,7 @@ import numpy as np
 
 from .. import _core
 from .._base.document import Variant, encode
+from .._base.libraries import scipy
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -111,9 +112,7 @@ class Spline(Variant, tag="spline"):
         >>> [round(rate, 9) for rate in cubic.rates]
         [1.0, 4.0, 13.0, 28.0]
         """
-        from scipy.interpolate import CubicSpline
-
-        curve = CubicSpline(times, values)
+        curve = scipy.interpolate.CubicSpline(times, values)
         points = (curve.x, np.asarray(values, float), curve(curve.x, 1))
         at, of, rate = (tuple(map(float, each)) for each in points)
         return cls(times=at, values=of, rates=rate)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from .._base.interrupt import answers_ctrl_c
+from .._base.libraries import scipy
 from ..errors import SceneError
 from .checks import checked_length, given_signal
 
@@ -57,11 +58,9 @@ def psd(
     >>> round(float(np.mean(value)), 3)
     0.008
     """
-    from scipy.signal import welch
-
     signal, fs = given_signal(x, fs)
     samples = checked_length("length", length, max(2 * signal.size // 9, 2), signal.size)
-    return welch(signal, fs, nperseg=samples)  # type: ignore[no-any-return]
+    return scipy.signal.welch(signal, fs, nperseg=samples)  # type: ignore[no-any-return]
 
 
 @answers_ctrl_c
@@ -109,16 +108,17 @@ def spectrogram(
     >>> bool(np.all(np.abs(highest - (100.0 + 50.0 * t)) < f[1]))
     True
     """
-    from scipy.signal import ShortTimeFFT
-    from scipy.signal.windows import hann
-
     signal, fs = given_signal(x, fs)
     samples = checked_length("length", length, round((4 * signal.size) ** 0.5), signal.size)
     if samples < 4:
         raise SceneError("length", str(samples), "at least 4 samples")
     step = checked_length("hop", hop, max(samples // 4, 1), samples)
-    transform = ShortTimeFFT(
-        hann(samples, sym=False), step, fs, fft_mode="onesided2X", scale_to="psd"
+    transform = scipy.signal.ShortTimeFFT(
+        scipy.signal.windows.hann(samples, sym=False),
+        step,
+        fs,
+        fft_mode="onesided2X",
+        scale_to="psd",
     )
     span = transform.lower_border_end[1], transform.upper_border_begin(signal.size)[1]
     if not span[0] < span[1]:

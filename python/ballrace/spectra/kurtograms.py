@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._base.interrupt import answers_ctrl_c
+from .._base.libraries import scipy
 from .._base.numbers import real
 from ..errors import SceneError
 from .checks import given_signal
@@ -132,8 +133,6 @@ def kurtogram(x: Given, fs: float | None = None, narrowest: float | None = None)
     >>> low < 3000.0 < high
     True
     """
-    from scipy.signal import hilbert
-
     signal, fs = given_signal(x, fs)
     if signal.size < 4 * _FEWEST:
         raise SceneError("x", f"{signal.size} samples", f"at least {4 * _FEWEST}")
@@ -145,7 +144,7 @@ def kurtogram(x: Given, fs: float | None = None, narrowest: float | None = None)
     varying = signal - signal.mean()
     if not np.abs(varying).max() > math.sqrt(_SILENT) * np.abs(signal).max():
         varying = np.zeros_like(signal)
-    whole = (hilbert(varying) * middle)[::2]
+    whole = (scipy.signal.hilbert(varying) * middle)[::2]
     rows = [(1, [whole]), *_levels([whole], 1, parts)]
     return _collected(sorted(rows, key=lambda row: row[0]), fs, varying)
 
@@ -241,16 +240,16 @@ def _levels(bands: list[Complex], count: int, most: float) -> Iterator[tuple[int
 
 def _split(band: Complex, parts: int) -> list[Complex]:
     """Split a band around zero into equal ones, the lowest first, each moved to zero and decimated."""
-    from scipy.signal import firwin, upfirdn
-
     taps = _TAPS * parts // 2 + 1
-    low_pass = firwin(taps, 1.0 / parts)
+    low_pass = scipy.signal.firwin(taps, 1.0 / parts)
     found = []
     for part in range(parts):
         centre = (part - (parts - 1) / 2) / parts
         moved = band * np.exp(-2j * math.pi * centre * np.arange(band.size))
         # Without the ends, where the filter reaches beyond the record.
-        found.append(upfirdn(low_pass, moved, down=parts)[taps // parts : band.size // parts])
+        found.append(
+            scipy.signal.upfirdn(low_pass, moved, down=parts)[taps // parts : band.size // parts]
+        )
     return found
 
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .._base.libraries import scipy
 from ..errors import SceneError
 from .checks import checked_length
 
@@ -61,9 +62,9 @@ def transforms(
     ndarray, shape (n_pieces, n_frequencies)
         Without a scale.
     """
-    from scipy.fft import fft, rfft
-
     cut = np.lib.stride_tricks.sliding_window_view(x, samples)[:: max(samples // 2, 1)]
     windowed = cut * hann(samples)
-    found: NDArray[np.complex128] = fft(windowed) if np.iscomplexobj(x) else rfft(windowed)
+    found: NDArray[np.complex128] = (
+        scipy.fft.fft(windowed) if np.iscomplexobj(x) else scipy.fft.rfft(windowed)
+    )
     return found

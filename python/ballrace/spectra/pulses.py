@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
+from .._base.libraries import scipy
 from .._base.numbers import counted, real, real_row
 from ..channel import channel_of
 from ..errors import AccuracyWarning, SceneError
@@ -105,8 +106,6 @@ def angle_from_pulses(
     >>> print(told[0].message)
     of 20 pulses 1 was double and is dropped, 1 missing one is counted
     """
-    from scipy.interpolate import CubicHermiteSpline
-
     each = counted("pulses_per_turn", pulses_per_turn, 1)
     times, asked = _checked_times(pulses), real_row("at", at)
     if asked.ndim != 1 or not np.isfinite(asked).all():
@@ -120,7 +119,9 @@ def angle_from_pulses(
     slope = np.gradient(turned, times, edge_order=2)
     within = np.clip(asked, times[0], times[-1])
     beyond = np.where(asked < times[0], slope[0], slope[-1]) * (asked - within)
-    angle: NDArray[np.float64] = CubicHermiteSpline(times, turned, slope)(within) + beyond
+    angle: NDArray[np.float64] = (
+        scipy.interpolate.CubicHermiteSpline(times, turned, slope)(within) + beyond
+    )
     return angle
 
 

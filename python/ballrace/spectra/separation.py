@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .._base.interrupt import answers_ctrl_c
+from .._base.libraries import scipy
 from .checks import given_signal
 from .pieces import piece_length
 
@@ -62,12 +63,9 @@ def separated(
     >>> bool(np.std(tones - tone) < 0.2), bool(np.allclose(tones + rest, tone + noise))
     (True, True)
     """
-    from scipy.signal import ShortTimeFFT
-    from scipy.signal.windows import hann
-
     signal, fs = given_signal(x, fs)
     samples = piece_length(signal, length, _PIECES, 4)
-    window = hann(samples, sym=False)
+    window = scipy.signal.windows.hann(samples, sym=False)
     step = max(samples // 4, 1)
     cut = np.lib.stride_tricks.sliding_window_view(signal, samples)[::step]
     pieces = np.fft.rfft(cut * window)
@@ -77,7 +75,7 @@ def separated(
     power = np.mean(np.abs(earlier) ** 2, axis=0)
     cross = np.abs(np.mean(later * earlier.conj(), axis=0))
     gain = np.divide(cross, power, out=np.zeros_like(power), where=power > 0.0)
-    transform = ShortTimeFFT(window, step, fs)
+    transform = scipy.signal.ShortTimeFFT(window, step, fs)
     spectra = transform.stft(signal) * np.minimum(gain, 1.0)[:, np.newaxis]
     tones: NDArray[np.float64] = transform.istft(spectra, k1=signal.size)
     return tones, signal - tones

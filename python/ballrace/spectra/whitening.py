@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .._base.interrupt import answers_ctrl_c
+from .._base.libraries import scipy
 from .._base.numbers import real
 from ..errors import SceneError
 from .checks import given_signal
@@ -78,11 +79,11 @@ def flattened(
     spectrum: NDArray[np.complex128], bins: float | None = None
 ) -> NDArray[np.complex128]:
     """Return a spectrum over its amplitude, or over the running root mean square of some bins; nothing stays 0."""
-    from scipy.ndimage import uniform_filter1d
-
     amplitude = np.abs(spectrum)
     largest = amplitude.max(initial=0.0)
     if bins is not None:
-        amplitude = np.sqrt(np.abs(uniform_filter1d(amplitude**2, max(round(bins), 1))))
+        amplitude = np.sqrt(
+            np.abs(scipy.ndimage.uniform_filter1d(amplitude**2, max(round(bins), 1)))
+        )
     present = amplitude > _FAINT * largest
     return np.divide(spectrum, amplitude, out=np.zeros_like(spectrum), where=present)

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .._base.libraries import scipy
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -36,10 +38,10 @@ def limit_of(first: NDArray[np.float64], independent: float | None = None) -> fl
     >>> round(limit_of(np.array([1.0, 2.0, 3.0, 2.0, 2.0])), 2)
     7.13
     """
-    from scipy.stats import norm, t
-
     count = first.size if independent is None else independent
-    distance = t.ppf(norm.cdf(_DEVIATIONS), count - 1.0) * np.sqrt(1.0 + 1.0 / count)
+    distance = scipy.stats.t.ppf(scipy.stats.norm.cdf(_DEVIATIONS), count - 1.0) * np.sqrt(
+        1.0 + 1.0 / count
+    )
     mean = float(first.mean())
     return mean + float(distance) * max(float(first.std(ddof=1)), _ROUNDING * abs(mean))
 

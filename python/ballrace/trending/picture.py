@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from .._base.libraries import go
 from ..plot.style import COLOURS, DASHES, MARKERS, finished
 from ..plot.times import stack
 from .quantities import FOLLOWED
 
 if TYPE_CHECKING:
-    import plotly.graph_objects as go
-
     from .result import Trend
 
 __all__ = ["picture"]
@@ -54,8 +53,6 @@ def picture(of: Trend, fig: go.Figure | None, layout: dict[str, Any]) -> go.Figu
 
 
 def _add(fig: go.Figure, row: int, time: Any, value: Any, *, name: str, number: int) -> None:
-    from .._base.plotly import Scatter
-
     line = {
         "color": COLOURS[number % len(COLOURS)],
         "dash": DASHES[number % len(DASHES)],
@@ -63,6 +60,6 @@ def _add(fig: go.Figure, row: int, time: Any, value: Any, *, name: str, number: 
     }
     marker = {"symbol": MARKERS[number % len(MARKERS)], "size": 6}
     fig.add_trace(
-        Scatter(x=time, y=value, name=name, mode="lines+markers", line=line, marker=marker),
+        go.Scatter(x=time, y=value, name=name, mode="lines+markers", line=line, marker=marker),
         row=row, col=1,
     )  # fmt: skip

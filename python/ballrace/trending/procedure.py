@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .._base.libraries import pl
 from .._base.numbers import counted, real_row
-from .._base.polars import pl
 from ..channel import Recorded, channel_of
 from ..diagnosis import diagnose
 from ..diagnosis.arguments import checked_channel, known_bearing

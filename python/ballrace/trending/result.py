@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from .._base.polars import pl
+from .._base.libraries import pl
 from .._base.text import printable
 
 if TYPE_CHECKING:
