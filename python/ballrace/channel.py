@@ -15,22 +15,17 @@ them, a channel, or an array with its sampling rate.
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Protocol, runtime_checkable
+from typing import Protocol, runtime_checkable
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ._base.numbers import real_row
 from ._base.units import canonical, in_unit
 from .errors import SceneError
 from .scene import Scene
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from numpy.typing import ArrayLike
-
 
 __all__ = ["Channel", "Recorded", "channel_of"]
 

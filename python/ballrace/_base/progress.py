@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import sys
 import time
-from typing import TYPE_CHECKING, Self, TextIO
+from types import TracebackType
+from typing import Self, TextIO
 
 from .text import printable
-
-if TYPE_CHECKING:
-    from types import TracebackType
 
 _WIDTH = 30
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 from .._base.arguments import knows
 from .._base.numbers import finite, positive
@@ -15,9 +16,6 @@ from .entry import Bearing
 from .filled import filled
 from .pedestal import chosen_housing
 from .rows import catalogue
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
 
 __all__ = [
     "OUTER",

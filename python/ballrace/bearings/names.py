@@ -9,13 +9,10 @@ from __future__ import annotations
 import csv
 import difflib
 import re
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from functools import cache, lru_cache
 from importlib import resources
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator
 
 __all__ = ["Name", "bare", "near", "read", "without_maker"]
 

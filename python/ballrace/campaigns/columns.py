@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterable
+from typing import Any
 
 from .._base.libraries import pl
 from ..scene.defect import SURFACES
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
 
 FAULTS = tuple(f"fault_{surface}" for surface in SURFACES)
 

@@ -7,14 +7,12 @@ features, with a hash of these. A flipped digit would otherwise give every case 
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
 
 from ..errors import CampaignError
 from .disk import hash_of, put, reading, refuse_link
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-    from pathlib import Path
 
 FORMAT = 1
 

@@ -7,16 +7,13 @@ import hashlib
 import os
 import re
 import uuid
+from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from typing import TYPE_CHECKING
+from io import BufferedWriter
+from pathlib import Path
 
 from .._io.whole import grab, lock, sync_folder
 from ..errors import CampaignError
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from io import BufferedWriter
-    from pathlib import Path
 
 _NAME = re.compile(r"[0-9a-f]{32}")
 """A file that is being written, or was when its process was killed."""

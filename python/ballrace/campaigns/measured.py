@@ -5,8 +5,9 @@ from __future__ import annotations
 import hashlib
 import math
 import warnings
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -20,9 +21,6 @@ from ..measuring.named import Chains, named_chains
 from ..scene import Scene
 from ..signals import Signals
 from .columns import found_in
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 __all__ = ["Measured", "features_table", "measured", "windows_table"]
 

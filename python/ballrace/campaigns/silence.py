@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import time
 import warnings
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import Any
 
 from .._base.text import printable
 from ..errors import CampaignError, CampaignWarning
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 _FIRST = 300.0
 """Silence after which it is told first; then after twice as long each time [s]."""

@@ -23,8 +23,10 @@ from __future__ import annotations
 import hashlib
 import json
 import uuid
+from collections.abc import Iterable, Mapping
 from contextlib import suppress
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 from warnings import warn
 
 from .._base.libraries import pl
@@ -35,10 +37,6 @@ from .columns import schema
 from .disk import hash_of, put, reading, refuse_link, sweep
 from .locks import in_turn
 from .shards import FEATURES, SHARD, check_shard, names, set_aside, shard_of_results
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
-    from pathlib import Path
 
 _FOLDERS = ("locks", "results", "signals", "tmp")
 _AT_ONCE = 200

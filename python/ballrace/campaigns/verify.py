@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Callable, Iterator
 from contextlib import suppress
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 from .._base.libraries import pl
 from .._io.files import as_path
@@ -11,11 +13,6 @@ from .._io.parquet import scan_sealed
 from ..errors import CampaignError
 from . import description
 from .shards import check_shard, names, shard_of_results
-
-if TYPE_CHECKING:
-    import os
-    from collections.abc import Callable, Iterator
-    from pathlib import Path
 
 
 def verify(folder: str | os.PathLike[str]) -> pl.DataFrame:

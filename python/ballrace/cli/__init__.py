@@ -7,15 +7,12 @@ import contextlib
 import os
 import signal
 import sys
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 from .._base.libraries import MissingLibraryError
 from .._base.text import printable
 from ..errors import BallraceError, FileError, SceneError
 from . import about, campaigns, diagnosing, exploring, fmu, running, signals, statics, studies
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
 
 __all__ = ["command", "main"]
 

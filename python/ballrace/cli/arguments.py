@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ..errors import SceneError
 from ..recordings.reading import key_of
 from ..scene import Scene
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 __all__ = [
     "Commands",

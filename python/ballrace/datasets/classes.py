@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 from .._base.libraries import pl
 from ..errors import SceneError
 from ..scene.defect import SURFACES
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
 
 __all__ = ["classes_of"]
 

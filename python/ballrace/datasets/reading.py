@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import json
+import os
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -16,9 +17,6 @@ from .._io.parquet import collected
 from ..channel import Channel
 from ..errors import FileError
 from .layout import SCHEMA_VERSION
-
-if TYPE_CHECKING:
-    import os
 
 __all__ = ["BearingDataset", "read_bearing_dataset"]
 

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
+from collections.abc import Collection, Iterable, Mapping
 from datetime import UTC, datetime
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .._base.interrupt import interrupted_once
 from .._base.libraries import pl
@@ -17,12 +20,6 @@ from .._io.files import as_path
 from .._io.parquet import writing_to
 from ..errors import SceneError
 from .layout import COLUMNS, SCHEMA_VERSION
-
-if TYPE_CHECKING:
-    import os
-    from collections.abc import Collection, Iterable, Mapping
-
-    from numpy.typing import NDArray
 
 __all__ = ["as_page", "card_of", "digest_of", "new_folder", "write", "write_block", "write_table"]
 

@@ -8,15 +8,12 @@ load variations*).
 from __future__ import annotations
 
 import importlib.util
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from pathlib import Path
 
 from ..report import write_page
 from .case import COLUMN, Case, run_case
 from .story import page
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-    from pathlib import Path
 
 __all__ = ["AXIAL_LOADS", "HEADER", "TITLE", "Case", "page", "rows", "run_case", "write"]
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,9 +19,6 @@ from ..run import simulate
 from ..scene import Scene, SpeedDrive
 from ..signals import Signals
 from ..statics import LoadDistribution, load_distribution
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 __all__ = ["COLUMN", "Case", "passing", "run_case"]
 

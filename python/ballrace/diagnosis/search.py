@@ -7,8 +7,8 @@ shaft modulates lie at those of the inner race, since BPFO + BPFI is the number 
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,9 +19,6 @@ from .envelopes import Levels
 from .kinematics import LEAST
 from .null import ACCUSED, Found, found_of, null_orders, probability
 from .strength import SHALLOW, Envelopes
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
 
 __all__ = ["Search", "searched"]
 

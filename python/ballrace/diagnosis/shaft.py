@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .envelopes import levels_of, line_spectrum
 from .null import probability
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
 
 __all__ = ["FURTHEST", "WITHIN", "ShaftRate", "shaft_rate"]
 

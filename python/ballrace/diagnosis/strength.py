@@ -10,18 +10,14 @@ signal's power is the acceleration at the fault's rate.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .combs import WIDTH
 from .envelopes import band_envelope, half_spectrum, line_spectrum, reach_of
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from numpy.typing import NDArray
 
 __all__ = ["SHALLOW", "Envelopes", "Strength", "strength_at"]
 

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..spectra.pieces import transforms
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 __all__ = ["needed_edge", "upper_edge"]
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 import warnings
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from ..errors import BallraceError, SceneWarning
 from ..frequencies.operating import FaultFrequencies, fault_frequencies, rates_at_a_turn, spin_of
@@ -13,9 +13,6 @@ from ..ratings.life import RatingLife, rating_life
 from ..scene import Scene
 from ..scene.turning import constant_speeds
 from ..statics import Equilibrium, LoadDistribution, Stiffness, load_distribution, stiffness
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 __all__ = ["Live", "solved"]
 

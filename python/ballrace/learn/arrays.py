@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,9 +11,6 @@ from numpy.typing import NDArray
 from .._base.libraries import pl
 from ..datasets.classes import classes_of
 from ..errors import SceneError
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
 
 __all__ = ["Examples", "examples"]
 

@@ -5,16 +5,14 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from fractions import Fraction
-from typing import TYPE_CHECKING
+
+from numpy.typing import ArrayLike
 
 from .._base.numbers import real
 from ..channel import Channel, Recorded, channel_of
 from ..diagnosis.arguments import nominal_rate
 from ..errors import SceneError
 from ..measuring import Logger
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
 
 __all__ = ["FEWEST_TURNS", "pieces_of"]
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import os
 import warnings
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, TypedDict, Unpack
+from typing import TypedDict, Unpack
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from .._base.libraries import pl
 from .._base.numbers import counted
@@ -27,12 +28,6 @@ from .path import ImpulseResponse, MeasuredResponse, Path
 from .sensor import Sensor
 from .source import Source, of_array, of_signals
 from .tacho import Tacho
-
-if TYPE_CHECKING:
-    import os
-
-    from numpy.typing import ArrayLike
-
 
 __all__ = ["CLIPPED", "Chain", "Measurement", "measure", "measured"]
 

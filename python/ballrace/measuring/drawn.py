@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .._base.libraries import scipy
 from .._base.numbers import counted
@@ -18,9 +18,6 @@ from .logger import Logger
 from .machine import MEASURED_FLOOR, Machine
 from .path import log_uniform, random_housing
 from .sensor import Sensor
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 __all__ = ["random_chains", "random_machine"]
 

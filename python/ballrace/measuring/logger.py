@@ -5,17 +5,14 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .._base.libraries import scipy
 from .._base.numbers import counted, positive
 from ..errors import SceneError
 from .noise import noise
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 __all__ = ["Logger"]
 

@@ -21,12 +21,14 @@ import subprocess
 import sys
 import threading
 import time
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from multiprocessing import spawn
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .._base import memory as _memory
 from ..errors import BallraceError, FileError, from_record
@@ -34,11 +36,6 @@ from . import limits
 from .here import format_of, read_here
 from .reading import Reading
 from .samples import Samples
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-
-    from numpy.typing import NDArray
 
 _PROGRAM = (
     "import sys; sys.path[:] = sys.argv[1:]; from ballrace.recordings.apart import serve; serve()"

@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 from .._base.units import is_unit
 from ..errors import FileError
 from .fields import NAMES, Candidate, fields_of, is_mixed_row, is_row, kind_of
 from .titles import is_time_name, named, time_unit
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-    from pathlib import Path
 
 __all__ = [
     "REMARK",

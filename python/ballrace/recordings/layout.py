@@ -7,19 +7,17 @@ above are its names and units, and a preamble.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import groupby
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 from ..errors import FileError
 from .commas import told_apart
 from .fields import NAMES, NUMBERS, Candidate, fields_of, is_mixed_row, is_row, kind_of, kinds_of
 from .headers import REMARK, check_preamble, names_in_remark, titles_above
 from .lines import other_ways
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-    from pathlib import Path
 
 __all__ = ["Layout", "layout_of"]
 

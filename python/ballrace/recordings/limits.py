@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 from ..errors import FileError
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 _NUMBER = 8.0
 """Length of a number [bytes]."""

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import codecs
+from collections.abc import Generator
 from contextlib import closing
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 from ..errors import FileError
-
-if TYPE_CHECKING:
-    from collections.abc import Generator
-    from pathlib import Path
 
 __all__ = ["Text"]
 

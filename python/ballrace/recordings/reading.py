@@ -5,14 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, fields
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 from .._base.numbers import counted, real, sampling_rate
 from ..errors import SceneError
 from .titles import TIME_UNITS, time_unit
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 __all__ = ["Chosen", "Key", "Reading", "checked", "key_of"]
 

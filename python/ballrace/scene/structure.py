@@ -4,17 +4,14 @@ from __future__ import annotations
 
 import csv
 import math
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import TYPE_CHECKING
 
 from .._base.document import LEFT_OUT, Part
 from .._io.files import as_path
 from ..errors import SceneError
-
-if TYPE_CHECKING:
-    import os
 
 __all__ = ["Compliance", "Mode", "Structure"]
 

@@ -6,7 +6,8 @@ run-up (computed order tracking: K. R. Fyfe, E. D. S. Munck, Mech. Syst. Signal 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from .. import _core
 from .._base.interrupt import answers_ctrl_c
@@ -14,10 +15,6 @@ from .._base.numbers import counted, real_row
 from ..errors import SceneError
 from .checks import checked_signal
 from .lines import spectrum
-
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import ArrayLike, NDArray
 
 __all__ = ["by_order", "order_spectrum", "turning"]
 

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
 from .._base.libraries import scipy
 from ..errors import SceneError
 from .checks import checked_length
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 __all__ = ["hann", "piece_length", "transforms"]
 
