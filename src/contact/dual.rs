@@ -1,8 +1,5 @@
 //! Numbers with their derivatives (forward differentiation).
 
-// Everything here must end up in the loop that uses it, compiled for that loop's instructions.
-#![allow(clippy::inline_always)]
-
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
 use crate::simd::Number;

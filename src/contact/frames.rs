@@ -7,9 +7,6 @@
 //! * The **cage's** frame turns about the bearing's axis at the orbit speed of the balls. A bearing that rolls steadily is at
 //!   rest in it, under the centrifugal force.
 
-// Into loops that are compiled for the instructions at hand.
-#![allow(clippy::inline_always)]
-
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use super::{V2, cross};

@@ -4,9 +4,6 @@
 //! `batch` eight whole contacts side by side; `held` holds contacts at one place for any velocities; `stiffness`
 //! differentiates them at rest. It is generic over the [`Number`] it computes with.
 
-// Everything here must be compiled for the instructions of its caller.
-#![allow(clippy::inline_always)]
-
 use super::laws::elastic::{ElasticLaw, ForLaw};
 use super::laws::traction::{Rolling, Sliding};
 use super::profile::{Inclination, Section, SurfacePoint, Zone};

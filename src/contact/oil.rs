@@ -1,9 +1,6 @@
 //! The effect of an oil film on a whole contact, and rolling resistance, which acts in addition to its nodes
 //! ([*Film*](crate::equations#film)).
 
-// Into loops that are compiled for the instructions at hand.
-#![allow(clippy::inline_always)]
-
 use super::laws::film::{FilmEffect, Oiled};
 use super::slip::Moves;
 use super::{V2, turned};

@@ -1,8 +1,5 @@
 //! Slip of ball and race along a zone as a formula of the position, from which friction is integrated.
 
-// Into loops that are compiled for the instructions at hand.
-#![allow(clippy::inline_always)]
-
 use super::laws::film::FilmEffect;
 use super::laws::traction::Rolling;
 use super::profile::{Inclination, Section};

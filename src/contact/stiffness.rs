@@ -5,9 +5,6 @@
 //! that a run evaluates, so Newton's method converges quadratically. Near a defect, where the ball's equator
 //! cuts the zone, and on races that are no tori, the stiffness is found by differences.
 
-// Everything here must be compiled for the instructions of its caller.
-#![allow(clippy::inline_always)]
-
 use nalgebra::{Matrix3, Vector3};
 
 use super::dual::Dual;

@@ -119,7 +119,6 @@ struct Squeezed<T> {
 
 impl<T: Number> Squeezed<T> {
     /// The film of a ball at a place and a velocity of the ring's frame, on a race that is raised there \[m\], and rises \[m/s\].
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     fn new<const FMA: bool>(
         film: &Squeeze,
@@ -146,7 +145,6 @@ impl<T: Number> Squeezed<T> {
     }
 
     /// Force on the ring.
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     fn on_ring(&self) -> [T; 3] {
         let [x, y, z] = self.normal;
@@ -183,7 +181,6 @@ struct RowFilms<'a> {
 
 impl RowFilms<'_> {
     /// Places and velocities of eight balls as a ring sees them, and the speed at which its mark turns there.
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     fn seen<const FMA: bool>(&self, first: BodyId, race: Race) -> ([[Lanes; 3]; 2], f64) {
         let (q, v) = (&self.state.q, &self.state.v);
@@ -202,7 +199,6 @@ impl RowFilms<'_> {
     }
 
     /// Raise of a race under eight balls \[m\], and how fast they meet it rise \[m/s\].
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     fn waves<const FMA: bool>(
         &self,
@@ -225,8 +221,6 @@ impl Task for RowFilms<'_> {
     /// Force on each ring and its moment about the origin, in the ring's frame.
     type Output = [[Vector3<f64>; 2]; 2];
 
-    // Compiled for the instruction set that runs it.
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     fn run<const FMA: bool>(self) -> Self::Output {
         let (film, row) = (&self.squeeze.film, self.row);
@@ -271,8 +265,6 @@ impl Wide for RowFilms<'_> {
     /// Force on each ring and no moment, as of the [`Task`].
     type Output = [[Vector3<f64>; 2]; 2];
 
-    // Compiled for the instruction set that runs it.
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
         let (film, row) = (&self.squeeze.film, self.row);

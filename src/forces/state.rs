@@ -1,8 +1,5 @@
 //! States and sums of forces of all bodies, one array for each direction.
 
-// Everything here must be compiled for the instructions of its caller.
-#![allow(clippy::inline_always)]
-
 use crate::contact::{Motion, TiltedRing, V2};
 use crate::model::{BodyId, DOFS, Dof, Layout, Model, Race};
 use crate::simd::{LANES, Lanes};

@@ -4,9 +4,6 @@
 //! F = −k (q − q₀) − c v        energy k (q − q₀)²/2        power c v²
 //! ```
 
-// Everything in the loop must be compiled for the instructions of its caller.
-#![allow(clippy::inline_always)]
-
 use super::{Account, Damper, Force, ForceSums, Instant, State, Table, Use, tilted};
 use crate::model::{Body, BodyId, Degree, Dof, Model, Race, Spring};
 

@@ -160,8 +160,6 @@ struct Prediction {
 }
 
 impl Each<5, 3> for Prediction {
-    // Compiled for the instruction set that runs it.
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     fn of<S: Simd>(
         &self,
@@ -188,8 +186,6 @@ struct Correction {
 }
 
 impl Each<2, 6> for Correction {
-    // Compiled for the instruction set that runs it.
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     fn of<S: Simd>(
         &self,

@@ -90,7 +90,6 @@ pub(super) fn attempt<S: LinearlyImplicit>(
 }
 
 /// The velocity on the polynomial through those at the beginning of the step and before.
-#[allow(clippy::inline_always)]
 #[inline(always)]
 fn extrapolate<S: Simd>(weights: KnownWeights, of: [Vector<S>; 3]) -> Vector<S> {
     let [first, second, third] = of;
@@ -106,8 +105,6 @@ struct Fast {
 }
 
 impl Each<4, 2> for Fast {
-    // Compiled for the instruction set that runs it.
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     fn of<S: Simd>(
         &self,
@@ -129,8 +126,6 @@ struct DampedPrediction {
 }
 
 impl Each<4, 2> for DampedPrediction {
-    // Compiled for the instruction set that runs it.
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     fn of<S: Simd>(
         &self,
@@ -151,8 +146,6 @@ struct Residuals {
 }
 
 impl Each<6, 2> for Residuals {
-    // Compiled for the instruction set that runs it.
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     fn of<S: Simd>(
         &self,
@@ -171,8 +164,6 @@ impl Each<6, 2> for Residuals {
 struct SumOfBoth;
 
 impl Each<0, 2> for SumOfBoth {
-    // Compiled for the instruction set that runs it.
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     fn of<S: Simd>(&self, [share, rest]: [Vector<S>; 2], []: [Vector<S>; 0]) -> [Vector<S>; 2] {
         [share + rest; 2]
@@ -187,8 +178,6 @@ struct BlendedEnd {
 }
 
 impl Each<2, 6> for BlendedEnd {
-    // Compiled for the instruction set that runs it.
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     fn of<S: Simd>(
         &self,

@@ -41,8 +41,6 @@ struct Combination<'a, K> {
 impl<K: AsRef<[f64]>> Wide for Combination<'_, K> {
     type Output = ();
 
-    // Compiled for the instruction set that runs it.
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let mut weights = [0.0; MAX_TERMS];
@@ -84,7 +82,6 @@ struct FusedPass<'a, K> {
 }
 
 impl<K: AsRef<[f64]>> FusedPass<'_, K> {
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     fn onto<S: Simd, const BASE: bool>(self, simd: S, base: &[f64], terms: usize) {
         match terms {
@@ -101,7 +98,6 @@ impl<K: AsRef<[f64]>> FusedPass<'_, K> {
     }
 
     /// The loop with the number of terms known, so that it is unrolled over the terms.
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     fn sum<const N: usize, const BASE: bool, S: Simd>(self, simd: S, base: &[f64]) {
         let len = self.out.len();
@@ -166,8 +162,6 @@ struct OnePass<'a, E, const IN: usize, const OUT: usize> {
 impl<E: Each<IN, OUT>, const IN: usize, const OUT: usize> Wide for OnePass<'_, E, IN, OUT> {
     type Output = ();
 
-    // Compiled for the instruction set that runs it.
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     fn with_simd<S: Simd>(mut self, simd: S) {
         let len = self.to[0].len();
@@ -178,7 +172,7 @@ impl<E: Each<IN, OUT>, const IN: usize, const OUT: usize> Wide for OnePass<'_, E
 }
 
 // Loops, not closures: those would be calls, compiled for the baseline.
-#[allow(clippy::inline_always, clippy::needless_range_loop)]
+#[allow(clippy::needless_range_loop)]
 impl<E: Each<IN, OUT>, const IN: usize, const OUT: usize> OnePass<'_, E, IN, OUT> {
     #[inline(always)]
     fn registers<S: Simd>(&mut self, simd: S, count: usize) {

@@ -190,8 +190,6 @@ struct Scaling<'n, 'a> {
 impl Wide for Scaling<'_, '_> {
     type Output = ();
 
-    // Compiled for the instruction set that runs it.
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let Norm {
@@ -227,7 +225,6 @@ impl Wide for Scaling<'_, '_> {
 }
 
 /// Weight and scaled square of an error `x` between two states.
-#[allow(clippy::inline_always)]
 #[inline(always)]
 fn scaled<S: Simd>(
     [atol, rtol]: [Vector<S>; 2],

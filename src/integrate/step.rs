@@ -171,8 +171,6 @@ struct Nothing<'a>(&'a [f64]);
 impl Wide for Nothing<'_> {
     type Output = f64;
 
-    // Compiled for the instruction set that runs it.
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> f64 {
         let zero = Vector::all(simd, 0.0);

@@ -32,8 +32,6 @@ struct Distance<'a> {
 impl Task for Distance<'_> {
     type Output = f64;
 
-    // Compiled for the instruction set that runs it.
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     fn run<const FMA: bool>(self) -> f64 {
         let term = |x0: f64, x1: f64, w: f64| ((x1 - x0) * w) * ((x1 - x0) * w);

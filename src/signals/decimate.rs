@@ -1,9 +1,6 @@
 //! Columns decimated during a run: every point of the grid is added at once to the samples that it contributes to, so
 //! that only the points for the ends of the record are kept.
 
-// Into loops that are compiled for the instructions at hand.
-#![allow(clippy::inline_always)]
-
 use std::collections::VecDeque;
 
 use super::Column;

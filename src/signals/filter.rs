@@ -17,9 +17,6 @@
 //! Source: J. F. Kaiser, *Nonrecursive digital filter design using the I₀-sinh window function*, IEEE ISCAS 1974;
 //! A. V. Oppenheim, R. W. Schafer, *Discrete-Time Signal Processing*, 3rd ed., section 7.5.3.
 
-// Into loops that are compiled for the instructions at hand.
-#![allow(clippy::inline_always)]
-
 use std::f64::consts::PI;
 
 /// Samples of the output from the middle of the filter to either end.

@@ -1,8 +1,5 @@
 //! The direction of a point in the plane, by products and one quotient: a library call for each number would spill all registers.
 
-// Into loops that are compiled for the instructions at hand.
-#![allow(clippy::inline_always)]
-
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 use super::Lanes;

@@ -1,8 +1,5 @@
 //! Logarithm and arctangent by products and quotients: a library call for each number would spill all registers.
 
-// Into loops that are compiled for the instructions at hand.
-#![allow(clippy::inline_always)]
-
 use std::f64::consts::{LN_2, SQRT_2};
 
 use super::Number;

@@ -1,8 +1,5 @@
 //! 1/√x without the processor's division and square root.
 
-// Into loops that are compiled for the instructions at hand.
-#![allow(clippy::inline_always)]
-
 use super::Number;
 
 /// Series of (1 − e)^(−1/2) for what the guess at an inverse root leaves, −0.0692 < e < 0.0676: interpolated at Chebyshev's

@@ -116,8 +116,6 @@ struct Fused<T>(T);
 impl<T: Task> NullaryFnOnce for Fused<T> {
     type Output = T::Output;
 
-    // Into the function that pulp compiles for the instructions.
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     fn call(self) -> T::Output {
         self.0.run::<true>()

@@ -1,8 +1,5 @@
 //! Arithmetic on eight numbers.
 
-// Everything here must end up in the loop that uses it, compiled for that loop's instructions.
-#![allow(clippy::inline_always)]
-
 use std::ops::{Add, AddAssign, Div, Index, IndexMut, Mul, Neg, Sub};
 
 /// Numbers in one [`Lanes`]: a register of AVX-512, two of AVX2, four of SSE2.

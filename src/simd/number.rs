@@ -1,8 +1,5 @@
 //! The numbers of the contact kernel: one, eight side by side, or those of a register.
 
-// Everything here must end up in the loop that uses it, compiled for that loop's instructions.
-#![allow(clippy::inline_always)]
-
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
 use super::lanes::{Lanes, Mask, mul_add};

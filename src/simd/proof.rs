@@ -1,9 +1,6 @@
 //! Checks that the instructions of a set compute what they should. Run once in a process before a set is used, and by the tests at
 //! every set that the machine has.
 
-// Everything here must be compiled for the instruction set that it tries.
-#![allow(clippy::inline_always)]
-
 use std::hint::black_box;
 
 use super::isa::{InstructionSet, Task};

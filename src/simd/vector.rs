@@ -1,9 +1,6 @@
 //! Vector of as many numbers as a register of the instruction set holds: for loops along tables, where eight at a time would leave half of
 //! them idle or spill.
 
-// Everything here must end up in the loop that uses it, compiled for that loop's instructions.
-#![allow(clippy::inline_always)]
-
 use std::any::TypeId;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 

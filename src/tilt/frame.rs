@@ -6,9 +6,6 @@
 //!     [ −τ_y           τ_x            w ]
 //! ```
 
-// Into loops that are compiled for the instructions at hand.
-#![allow(clippy::inline_always)]
-
 use nalgebra::{Matrix3, Vector3};
 
 use crate::simd::Number;

@@ -1,7 +1,5 @@
 //! A linear system whose matrix is an arrow: every ball is coupled to the two rings only.
 
-// Everything in lanes must be compiled for the instructions of its caller.
-#![allow(clippy::inline_always)]
 // Loops over matrices read as their formulae do.
 #![allow(clippy::needless_range_loop)]
 

@@ -3,8 +3,6 @@
 //! Contacts are held in the frames of their rings, with wrenches and twists about the frame's origin. Where rings are parallel those
 //! are the scene's own, and nothing is turned.
 
-// Everything in lanes must be compiled for the instructions of its caller.
-#![allow(clippy::inline_always)]
 // Loops over matrices read as their formulae do.
 #![allow(clippy::needless_range_loop)]
 

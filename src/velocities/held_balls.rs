@@ -169,8 +169,6 @@ struct FindElements<'a> {
 impl Task for FindElements<'_> {
     type Output = HeldContacts;
 
-    // Compiled for the instruction set that runs it.
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     fn run<const FMA: bool>(self) -> HeldContacts {
         let mut eight = EightContacts::default();
@@ -195,8 +193,6 @@ struct FindSlopes<'a, const N: usize> {
 impl<const N: usize> Task for FindSlopes<'_, N> {
     type Output = ();
 
-    // Compiled for the instruction set that runs it.
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     fn run<const FMA: bool>(self) {
         let Self {

@@ -1,7 +1,5 @@
 //! Products and inverses of the small matrices of which the contacts' matrix is made.
 
-// Everything in lanes must be compiled for the instructions of its caller.
-#![allow(clippy::inline_always)]
 // Loops over matrices read as their formulae do.
 #![allow(clippy::needless_range_loop)]
 

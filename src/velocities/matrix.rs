@@ -186,8 +186,6 @@ struct Factorise<'a, const N: usize> {
 impl<const N: usize> Task for Factorise<'_, N> {
     type Output = ();
 
-    // Compiled for the instruction set that runs it.
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     fn run<const FMA: bool>(self) {
         let (dynamics, views, gamma_h) = (self.dynamics, self.views, self.gamma_h);
@@ -238,8 +236,6 @@ struct Correct<'a, const N: usize> {
 impl<const N: usize> Wide for Correct<'_, N> {
     type Output = ();
 
-    // Compiled for the instruction set that runs it.
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let Self { work, residual } = self;

@@ -1,8 +1,5 @@
 //! Weights of the nodes of eight contacts for friction.
 
-// Into loops that are compiled for the instructions at hand.
-#![allow(clippy::inline_always)]
-
 use super::Across;
 use crate::contact::kernel::Whole;
 use crate::contact::quadrature::Halves;

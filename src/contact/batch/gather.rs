@@ -1,8 +1,5 @@
 //! Eight contacts side by side: which of them touch, and the data gathered for those that do.
 
-// Everything here must be compiled for the instructions of its caller.
-#![allow(clippy::inline_always)]
-
 use crate::contact::damage::AngularReach;
 use crate::contact::profile::{HeightTable, Raise, Section};
 use crate::contact::{FilmNumbers, Motion, Pair};

@@ -4,9 +4,6 @@
 //! groove: then the contacts lie side by side in [`Lanes`]. Other contacts (a shoulder, a ball that is not in
 //! front of its groove) are reported, and left to it.
 
-// Everything here must be compiled for the instructions of its caller.
-#![allow(clippy::inline_always)]
-
 mod friction_weights;
 mod gather;
 mod points;

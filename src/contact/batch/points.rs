@@ -3,9 +3,6 @@
 //! What [`Contour`] does one by one, in [`Lanes`]: the foot, the ends of the zone, the elements between them. Contacts
 //! that run over an end of race or ball, or whose Newton steps do not converge, are reported and left to it.
 
-// Everything here must be compiled for the instructions of its caller.
-#![allow(clippy::inline_always)]
-
 use super::tilted::SpatialSums;
 use super::{Across, BatchForces, EightContacts, FrictionWeights, Moves, Place, Sums};
 use crate::contact::kernel::{Element, Receiver, Whole};

@@ -4,9 +4,6 @@
 //! ([*Rings that tilt*](crate::equations#rings-that-tilt-balls-that-spin-freely)).
 //! It is separate code, since in that of parallel rings the compiler would no longer fill whole registers.
 
-// Everything here must be compiled for the instructions of its caller.
-#![allow(clippy::inline_always)]
-
 use super::{Across, BatchForces, EightContacts, FrictionWeights, Place, RingLanes, Sums};
 use crate::contact::kernel::{self, Element, Receiver};
 use crate::contact::{Motion, Pair};

@@ -1,8 +1,5 @@
 //! Held contacts with films: weights of nodes follow the velocities, and there is rolling resistance.
 
-// Everything here must be compiled for the instructions of its caller.
-#![allow(clippy::inline_always)]
-
 use super::{AXIAL, Around, HeldContacts, HeldElements, HeldSlope};
 use crate::contact::Pair;
 use crate::contact::slip::Moves;

@@ -5,8 +5,6 @@
 //! contact, and the ball's turning about x and y behind them where it spins freely. The derivative by w of the wrench on the ball about
 //! its centre says all about both bodies.
 
-// Everything here must be compiled for the instructions of its caller.
-#![allow(clippy::inline_always)]
 // Loops over matrices read as their formulae do.
 #![allow(clippy::needless_range_loop)]
 

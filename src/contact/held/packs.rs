@@ -1,8 +1,5 @@
 //! Slices of contacts that are evaluated alone, in packs of eight.
 
-// Everything here must be compiled for the instructions of its caller.
-#![allow(clippy::inline_always)]
-
 use super::{AXIAL, Around, HeldElement, HeldRolling, PlaneVector};
 use crate::contact::profile::Inclination;
 use crate::contact::{ContactForce, OilForce, Sink, V2, cross, turned};

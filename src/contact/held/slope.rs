@@ -1,7 +1,5 @@
 //! The derivative of a contact's wrench on its ball by the relative twist.
 
-// Everything here must be compiled for the instructions of its caller.
-#![allow(clippy::inline_always)]
 // Loops over matrices read as their formulae do.
 #![allow(clippy::needless_range_loop)]
 

@@ -1,8 +1,5 @@
 //! Damping after Hunt and Crossley: F = F_el (1 + 3/2 α_d v_n).
 
-// Into loops that are compiled for the instructions at hand.
-#![allow(clippy::inline_always)]
-
 use crate::simd::Number;
 
 /// Equations (2) and (4) of the paper.

@@ -1,8 +1,5 @@
 //! Squeeze film: what grease or oil between a ball and a race takes from their approach, whether they touch or not.
 
-// Into loops that are compiled for the instructions at hand.
-#![allow(clippy::inline_always)]
-
 use crate::simd::Number;
 
 /// x = c v/(1 + |g|/h), and of a film that is pulled apart at most p: F = x for x ≥ 0, x/(1 + |x|/p) below.

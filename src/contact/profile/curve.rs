@@ -165,8 +165,6 @@ impl Curve {
     }
 
     /// R, R' and R'' at eight places.
-    // Into what is compiled for the instructions at hand.
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     pub fn at_eight<const FMA: bool>(&self, z: Lanes) -> [Lanes; 3] {
         let pieces = self.pieces_at(&z);

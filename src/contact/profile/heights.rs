@@ -1,8 +1,5 @@
 //! Heights around a circumference as a table: many waves at the cost of one.
 
-// Into loops that are compiled for the instructions at hand.
-#![allow(clippy::inline_always)]
-
 use std::f64::consts::TAU;
 
 use realfft::RealFftPlanner;

@@ -1,8 +1,5 @@
 //! Height and slope of a surface over its round shape, at a place.
 
-// Into loops that are compiled for the instructions at hand.
-#![allow(clippy::inline_always)]
-
 use crate::simd::Lanes;
 
 /// How waves raise a race under a ball, or a ball before a race, or eight of them \[m\].

@@ -1,8 +1,5 @@
 //! Ball and groove as two circles in their meridional plane.
 
-// Into loops that are compiled for the instructions at hand.
-#![allow(clippy::inline_always)]
-
 use crate::simd::{Decision, Number};
 
 /// A direction in the meridional plane, by cosine and sine of its angle from the bearing's plane towards +z.

@@ -1,8 +1,5 @@
 //! Waves of a race's radius: those that are listed, and texture.
 
-// Into loops that are compiled for the instructions at hand.
-#![allow(clippy::inline_always)]
-
 use std::sync::Arc;
 
 use super::{HeightTable, Raise};

@@ -1,8 +1,5 @@
 //! The zone of contact in closed form: where the two circles of ball and groove cut.
 
-// Into loops that are compiled for the instructions at hand.
-#![allow(clippy::inline_always)]
-
 use super::{Inclination, Section};
 use crate::simd::Number;
 

@@ -1,8 +1,5 @@
 //! Product integration over whole zones, whose halves are mirror images.
 
-// Into loops that are compiled for the instructions at hand.
-#![allow(clippy::inline_always)]
-
 use super::moments::Moments;
 use super::needle::Needles;
 use super::product::Product;

@@ -1,8 +1,5 @@
 //! Weights of the nodes of a rule for the needles of friction, from integrals in closed form.
 
-// Into loops that are compiled for the instructions at hand.
-#![allow(clippy::inline_always)]
-
 use std::f64::consts::PI;
 
 use nalgebra::DMatrix;

@@ -1,8 +1,5 @@
 //! Functions with the shape of friction where slip vanishes within a zone ("needles"), whose integrals are known in closed form.
 
-// Into loops that are compiled for the instructions at hand.
-#![allow(clippy::inline_always)]
-
 use crate::contact::slip::Slip;
 use crate::simd::{Number, arctan_over, inverse_root, ln};
 

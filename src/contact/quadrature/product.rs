@@ -1,8 +1,5 @@
 //! Product integration: weights of the nodes of a rule for friction.
 
-// Into loops that are compiled for the instructions at hand.
-#![allow(clippy::inline_always)]
-
 use super::Rule;
 use super::moments::Moments;
 use super::needle::Needles;

@@ -136,8 +136,6 @@ impl SideConstants {
     }
 
     /// Gathers eight contacts as they are seen, into place: they are too large to be handed on by value.
-    // Compiled for the instruction set that runs it.
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     pub fn eight(
         &self,
@@ -194,8 +192,6 @@ impl SideConstants {
     }
 
     /// Gives lanes that are not `others` the constants and waves of contacts with this ring; places and speeds of balls are gathered.
-    // As above.
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     fn beside(
         &self,
@@ -278,8 +274,6 @@ struct EightOnCurve<'a, const TILTED: bool>(Eight<'a, TILTED>, &'a Contour);
 impl<const TILTED: bool> Task for EightOnCurve<'_, TILTED> {
     type Output = ();
 
-    // Compiled for the instruction set that runs it.
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     fn run<const FMA: bool>(self) {
         let Self(evaluated, contour) = self;
@@ -351,8 +345,6 @@ pub(super) struct ToScene<'a> {
 impl Task for ToScene<'_> {
     type Output = ();
 
-    // Compiled for the instruction set that runs it.
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     fn run<const FMA: bool>(self) {
         let Self { group, ring } = self;
@@ -370,8 +362,6 @@ impl Task for ToScene<'_> {
 
 impl<const TILTED: bool> Eight<'_, TILTED> {
     /// Gathers the contacts.
-    // Compiled for the instruction set that runs it.
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     fn gather(&self, eight: &mut EightContacts) {
         let (group, race) = (&self.group, self.group.race(0));
@@ -388,7 +378,6 @@ impl<const TILTED: bool> Eight<'_, TILTED> {
     }
 
     /// Evaluates them before rings that stand parallel.
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     fn parallel<const FMA: bool, const SYMMETRIC: bool>(self) {
         let mut eight = EightContacts::default();
@@ -409,8 +398,6 @@ impl<const TILTED: bool> Eight<'_, TILTED> {
 impl<const TILTED: bool> Task for Eight<'_, TILTED> {
     type Output = ();
 
-    // Compiled for the instruction set that runs it.
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     fn run<const FMA: bool>(self) {
         if !TILTED {
@@ -435,8 +422,6 @@ struct SymmetricEight<'a>(Eight<'a, false>);
 impl Task for SymmetricEight<'_> {
     type Output = ();
 
-    // Compiled for the instruction set that runs it.
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     fn run<const FMA: bool>(self) {
         self.0.parallel::<FMA, true>();

@@ -45,15 +45,12 @@ impl Neighbours {
     }
 
     /// Numbers of its balls along one direction; in lanes that are left, of whatever comes next.
-    // Into what is compiled for the instruction set that runs it.
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     fn lanes(&self, of: &Table, dof: Dof) -> Lanes {
         of.eight(BodyId::ball(self.first), dof)
     }
 
     /// The same along x, y and z.
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     fn along(&self, of: &Table) -> [Lanes; 3] {
         [
@@ -74,8 +71,6 @@ pub(super) struct Find<'a> {
 impl Task for Find<'_> {
     type Output = ();
 
-    // Compiled for the instruction set that runs it.
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     fn run<const FMA: bool>(self) {
         let Self {

@@ -139,8 +139,6 @@ struct Look<'a> {
 impl Task for Look<'_> {
     type Output = ();
 
-    // Compiled for the instruction set that runs it.
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     fn run<const FMA: bool>(self) {
         for view in self.both.iter_mut().filter(|view| view.tilts) {
@@ -151,8 +149,6 @@ impl Task for Look<'_> {
 
 impl RingView {
     /// Turns all balls into this ring's frame.
-    // Compiled for the instruction set that runs it.
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     fn turn<const FMA: bool>(&mut self, state: &State) {
         let State { q, v, .. } = state;

@@ -101,8 +101,6 @@ struct Links<'a> {
 impl Wide for Links<'_> {
     type Output = ();
 
-    // Compiled for the instruction set that runs it.
-    #[allow(clippy::inline_always)]
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let Self {
@@ -150,7 +148,6 @@ impl Wide for Links<'_> {
 }
 
 /// Force of a [`link`] on the first of two balls along x and y, from how far the second is apart and how fast it departs.
-#[allow(clippy::inline_always)]
 #[inline(always)]
 pub(crate) fn pull<S: Simd>(
     cage: &scene::CageLinks,

@@ -1,8 +1,5 @@
 //! Hertz's point contact, cut into slices along the common normal.
 
-// Into loops that are compiled for the instructions at hand.
-#![allow(clippy::inline_always)]
-
 use super::{ElasticLaw, elliptic};
 use crate::scene::Material;
 use crate::simd::Number;

@@ -1,8 +1,5 @@
 //! The paper's law, after the roller slices of ISO/TS 16281: F = (C/D) Σ s^{10/9} Δζ.
 
-// Into loops that are compiled for the instructions at hand.
-#![allow(clippy::inline_always)]
-
 use super::ElasticLaw;
 use super::power::ten_ninths;
 use crate::simd::Number;

@@ -2,9 +2,6 @@
 //!
 //! To add one: a file with its equation here, a variant below, a variant of `scene::NormalLaw`.
 
-// Into loops that are compiled for the instructions at hand.
-#![allow(clippy::inline_always)]
-
 pub mod elliptic;
 pub mod hertz;
 pub mod iso16281;

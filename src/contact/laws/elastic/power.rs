@@ -13,8 +13,6 @@ const GUESS: f64 = 1_191_820_000.0;
 ///
 /// y ≈ x^{−1/9} from the bits; with e = 1 − x y⁹, first y ← y (1 − e)^{−1/9}, then x^{10/9} = x² y⁸ (1 − e)^{−8/9},
 /// both by four terms of their series. A NaN stays one.
-// Into the vector loop that uses it.
-#[allow(clippy::inline_always)]
 #[inline(always)]
 pub(in crate::contact) fn ten_ninths<const FMA: bool>(x: f64) -> f64 {
     let upper = f64::from_bits((x.to_bits() >> 32) | INTEGER.to_bits()) - INTEGER;
@@ -39,7 +37,6 @@ const fn binomial(exponent: f64) -> [f64; 4] {
 }
 
 /// y⁸ and 1 − x y⁹.
-#[allow(clippy::inline_always)]
 #[inline(always)]
 fn remainder<const FMA: bool>(x: f64, y: f64) -> (f64, f64) {
     let square = y * y;
@@ -49,7 +46,6 @@ fn remainder<const FMA: bool>(x: f64, y: f64) -> (f64, f64) {
 }
 
 /// c₁ + c₂ e + c₃ e² + c₄ e³, as two short chains that run side by side.
-#[allow(clippy::inline_always)]
 #[inline(always)]
 fn series<const FMA: bool>(c: &[f64; 4], e: f64) -> f64 {
     let low = mul_add::<FMA>(e, c[1], c[0]);

@@ -1,8 +1,5 @@
 //! How a film damps the approach.
 
-// Into loops that are compiled for the instructions at hand.
-#![allow(clippy::inline_always)]
-
 use std::f64::consts::TAU;
 
 use super::conjunction::{Conjunction, Groups};

@@ -1,8 +1,5 @@
 //! The film of a race, and its effect on a whole contact.
 
-// Into loops that are compiled for the instructions at hand.
-#![allow(clippy::inline_always)]
-
 use super::damping::DampingNow;
 use super::rolling::RollingNow;
 use super::traction::TractionNow;

@@ -1,8 +1,5 @@
 //! How film and steel resist rolling.
 
-// Into loops that are compiled for the instructions at hand.
-#![allow(clippy::inline_always)]
-
 use std::f64::consts::PI;
 
 use super::conjunction::{Conjunction, Groups};

@@ -1,8 +1,5 @@
 //! Friction of a film.
 
-// Into loops that are compiled for the instructions at hand.
-#![allow(clippy::inline_always)]
-
 use super::conjunction::Conjunction;
 use super::oil::Oil;
 use crate::simd::{Lanes, Number};

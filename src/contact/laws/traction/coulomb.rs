@@ -1,8 +1,5 @@
 //! Coulomb's friction.
 
-// Into loops that are compiled for the instructions at hand.
-#![allow(clippy::inline_always)]
-
 use super::{Sliding, smoothed};
 use crate::simd::Number;
 

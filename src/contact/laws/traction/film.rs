@@ -1,8 +1,5 @@
 //! Traction of an oil film.
 
-// Into loops that are compiled for the instructions at hand.
-#![allow(clippy::inline_always)]
-
 use super::Sliding;
 use crate::simd::Number;
 

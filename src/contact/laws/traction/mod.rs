@@ -2,9 +2,6 @@
 //!
 //! To add one: a file with its equation here, a variant below, a variant of `scene::Friction`.
 
-// Into loops that are compiled for the instructions at hand.
-#![allow(clippy::inline_always)]
-
 mod coulomb;
 mod curve;
 mod film;
