@@ -30,7 +30,11 @@ def rows_of(table: object) -> tuple[list[dict[str, Any]], list[str]]:
     ------
     SceneError
         It is no table, or has no rows.
+    MemoryLimitError
+        polars, which writes a campaign, cannot start.
     """
+    from .._base import polars  # noqa: F401 (before anything is written)
+
     if isinstance(table, Sequence) and all(isinstance(row, Mapping) for row in table):
         rows = [dict(row) for row in table]
         names = list(dict.fromkeys(name for row in rows for name in row))

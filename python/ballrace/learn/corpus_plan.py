@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from .._base.libraries import pl
+from .._base.polars import pl
 from ..bearings import catalogue
 from ..datasets.split import bearing_split
 from ..measuring import Chain, Logger, random_chains

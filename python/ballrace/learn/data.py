@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .._base.libraries import pl
 from .._base.numbers import counted, real
+from .._base.polars import pl
 from ..campaigns import Campaign, campaign
 from ..campaigns.progress import duration as spoken
 from ..channel import Channel
