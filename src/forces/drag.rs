@@ -1,7 +1,7 @@
 //! Drag of oil in the balls' way: −½ ρ X C_d (π D²/4) |v| v on a ball, seen from the housing ([*Film*](crate::equations#film)).
 
-use super::{Account, Damper, Force, ForceSums, Instant, Use};
-use crate::model::{BodyId, Dof, Model};
+use super::{Account, Asymmetry, Damper, Force, ForceSums, Instant, RingWrench, Use};
+use crate::model::{BodyId, Dof, Model, Race};
 
 /// Drag on the balls of all rows.
 #[derive(Debug)]
@@ -44,6 +44,14 @@ impl Force for Drag {
 
     fn dampers(&self, _model: &Model) -> Vec<Damper> {
         Vec::new()
+    }
+
+    fn at_start(&self, _model: &Model, _race: Race) -> RingWrench {
+        RingWrench::default()
+    }
+
+    fn asymmetry(&self, _model: &Model) -> Asymmetry {
+        Asymmetry::default()
     }
 }
 

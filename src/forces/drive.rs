@@ -1,6 +1,6 @@
 //! Drive of the rings: a torque on the inner ring, or prescribed speeds, whose motion is known without a force.
 
-use super::{Account, Damper, Force, ForceSums, Instant, RingWrench, Use};
+use super::{Account, Asymmetry, Damper, Force, ForceSums, Instant, RingWrench, Use};
 use crate::model::{Model, Race};
 use crate::scene::Drive;
 
@@ -38,6 +38,14 @@ impl Force for DriveTorque {
 
     fn dampers(&self, _model: &Model) -> Vec<Damper> {
         Vec::new()
+    }
+
+    fn at_start(&self, _model: &Model, _race: Race) -> RingWrench {
+        RingWrench::default()
+    }
+
+    fn asymmetry(&self, _model: &Model) -> Asymmetry {
+        Asymmetry::default()
     }
 }
 

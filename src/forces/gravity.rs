@@ -1,6 +1,6 @@
 //! Gravity: F = m g on every body, energy −m g · r.
 
-use super::{Account, Damper, Force, ForceSums, RingWrench, Use};
+use super::{Account, Asymmetry, Damper, Force, ForceSums, RingWrench, Use};
 use crate::model::{BodyId, BodyKind, Dof, Model, Race};
 
 /// Weight of all bodies.
@@ -42,8 +42,11 @@ impl Force for Gravity {
         }
     }
 
-    fn along_z(&self, model: &Model) -> Option<String> {
-        (model.scene.gravity[2] != 0.0).then(|| "gravity acts along z".to_owned())
+    fn asymmetry(&self, model: &Model) -> Asymmetry {
+        Asymmetry {
+            along_z: (model.scene.gravity[2] != 0.0).then(|| "gravity acts along z".to_owned()),
+            ..Asymmetry::default()
+        }
     }
 }
 

@@ -4,7 +4,7 @@
 
 use nalgebra::{Vector2, Vector3};
 
-use super::{Account, Damper, Force, ForceSums, Instant, RingWrench, Use};
+use super::{Account, Asymmetry, Damper, Force, ForceSums, Instant, RingWrench, Use};
 use crate::model::{LoadModel, Model, Race};
 use crate::scene::TimeFunction;
 
@@ -62,25 +62,35 @@ impl Force for Loads {
         sum
     }
 
-    fn along_z(&self, model: &Model) -> Option<String> {
-        let mut loads = model.scene.loads.keys().zip(&model.loads);
-        let found = loads.find(|(_, load)| load.direction[2] != 0.0 && load.force.peak() != 0.0)?;
-        Some(format!("load {:?} acts along z", found.0))
+    fn asymmetry(&self, model: &Model) -> Asymmetry {
+        Asymmetry {
+            along_z: along_z(model),
+            tilting: tilting(model),
+            turns_with_ring: false,
+        }
     }
+}
 
-    fn tilting(&self, model: &Model) -> Option<String> {
-        let tilts = |moment: Vector3<f64>| moment.xy() != Vector2::zeros();
-        let mut loads = model.scene.loads.keys().zip(&model.loads);
-        let load = loads.find(|(_, load)| {
-            let tilts = |arm: Vector3<f64>| tilts(arm.cross(&Vector3::from(load.direction)));
-            load.arm.is_some_and(tilts) && load.force.peak() != 0.0
-        });
-        let mut moments = model.scene.moments.keys().zip(&model.moments);
-        let moment =
-            moments.find(|(_, of)| tilts(Vector3::from(of.direction)) && of.moment.peak() != 0.0);
-        load.map(|(name, _)| format!("load {name:?} acts off the ring's centre"))
-            .or(moment.map(|(name, _)| format!("moment {name:?} tilts a ring")))
-    }
+/// The load that acts along z, in words.
+fn along_z(model: &Model) -> Option<String> {
+    let mut loads = model.scene.loads.keys().zip(&model.loads);
+    let found = loads.find(|(_, load)| load.direction[2] != 0.0 && load.force.peak() != 0.0)?;
+    Some(format!("load {:?} acts along z", found.0))
+}
+
+/// The load or moment that tilts a ring, in words.
+fn tilting(model: &Model) -> Option<String> {
+    let tilts = |moment: Vector3<f64>| moment.xy() != Vector2::zeros();
+    let mut loads = model.scene.loads.keys().zip(&model.loads);
+    let load = loads.find(|(_, load)| {
+        let tilts = |arm: Vector3<f64>| tilts(arm.cross(&Vector3::from(load.direction)));
+        load.arm.is_some_and(tilts) && load.force.peak() != 0.0
+    });
+    let mut moments = model.scene.moments.keys().zip(&model.moments);
+    let moment =
+        moments.find(|(_, of)| tilts(Vector3::from(of.direction)) && of.moment.peak() != 0.0);
+    load.map(|(name, _)| format!("load {name:?} acts off the ring's centre"))
+        .or(moment.map(|(name, _)| format!("moment {name:?} tilts a ring")))
 }
 
 fn sizes(model: &Model) -> impl Iterator<Item = &TimeFunction> + Clone {

@@ -93,29 +93,26 @@ pub(crate) trait Force: Debug + Sync {
 
     /// The wrench on a ring at the start, wherever the ring is: the force, and a moment in the ring's frame about its centre of
     /// mass. Springs of supports are no part of it.
-    fn at_start(&self, _model: &Model, _race: Race) -> RingWrench {
-        RingWrench::default()
-    }
+    fn at_start(&self, model: &Model, race: Race) -> RingWrench;
 
     /// The wrench at the start on a ring that is elsewhere, of a force that depends on the ring's place.
     fn at_place(&self, _model: &Model, _race: Race, _ring: &RingMotion) -> RingWrench {
         RingWrench::default()
     }
 
+    /// Effects of the force by which a run cannot leave out a degree of freedom or half of the bearing.
+    fn asymmetry(&self, model: &Model) -> Asymmetry;
+}
+
+/// Effects of a force by which a run cannot leave out what it would without it.
+#[derive(Debug, Default)]
+pub(crate) struct Asymmetry {
     /// The part that acts along z, in words.
-    fn along_z(&self, _model: &Model) -> Option<String> {
-        None
-    }
-
+    pub along_z: Option<String>,
     /// The part that tilts a ring, in words.
-    fn tilting(&self, _model: &Model) -> Option<String> {
-        None
-    }
-
+    pub tilting: Option<String>,
     /// Whether the force depends on the angle of the inner ring.
-    fn turns_with_ring(&self, _model: &Model) -> bool {
-        false
-    }
+    pub turns_with_ring: bool,
 }
 
 /// Use of a force in a run.
@@ -164,12 +161,21 @@ pub(crate) struct Account {
 
 impl AddAssign for Account {
     fn add_assign(&mut self, other: Self) {
-        self.kinetic += other.kinetic;
-        self.support += other.support;
-        self.cage += other.cage;
-        self.gravity += other.gravity;
-        self.power += other.power;
-        self.damping += other.damping;
+        // Named one by one, so that the compiler asks about a new field.
+        let Self {
+            kinetic,
+            support,
+            cage,
+            gravity,
+            power,
+            damping,
+        } = other;
+        self.kinetic += kinetic;
+        self.support += support;
+        self.cage += cage;
+        self.gravity += gravity;
+        self.power += power;
+        self.damping += damping;
     }
 }
 

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::{Account, Damper, Force, ForceSums, Instant, RingWrench, State, Use, blame};
+use super::{Account, Asymmetry, Damper, Force, ForceSums, Instant, RingWrench, State, Use, blame};
 use crate::model::{Dof, Model, Race};
 use crate::scene::{RingForce, RingMotion};
 
@@ -72,16 +72,17 @@ impl Force for Outside {
         .collect()
     }
 
-    fn along_z(&self, model: &Model) -> Option<String> {
-        off_plane(model)
+    /// Effect at the start of nothing: it depends on the ring's place ([`Self::at_place`]).
+    fn at_start(&self, _model: &Model, _race: Race) -> RingWrench {
+        RingWrench::default()
     }
 
-    fn tilting(&self, model: &Model) -> Option<String> {
-        off_plane(model)
-    }
-
-    fn turns_with_ring(&self, model: &Model) -> bool {
-        acts(model)
+    fn asymmetry(&self, model: &Model) -> Asymmetry {
+        Asymmetry {
+            along_z: off_plane(model),
+            tilting: off_plane(model),
+            turns_with_ring: acts(model),
+        }
     }
 }
 

@@ -4,7 +4,7 @@
 
 use nalgebra::Vector3;
 
-use super::{Account, Damper, Force, ForceSums, Instant, RingWrench, State, Table, Use};
+use super::{Account, Asymmetry, Damper, Force, ForceSums, Instant, RingWrench, State, Table, Use};
 use crate::contact::{Motion, Pair, Raise, Section, Squeeze, TiltedRing, cross};
 use crate::model::{BodyId, Dof, Model, Race, RowModel, SqueezeModel};
 use crate::simd::{LANES, Lanes, Mask, Number, Simd, Task, Vector, Wide};
@@ -94,6 +94,14 @@ impl Force for SqueezeFilms {
             })
         };
         model.rows.iter().filter_map(of).collect()
+    }
+
+    fn at_start(&self, _model: &Model, _race: Race) -> RingWrench {
+        RingWrench::default()
+    }
+
+    fn asymmetry(&self, _model: &Model) -> Asymmetry {
+        Asymmetry::default()
     }
 }
 

@@ -9,8 +9,8 @@
 
 use nalgebra::Vector3;
 
-use super::{Account, Damper, Force, ForceSums, Instant, Use};
-use crate::model::{BodyId, Dof, Model};
+use super::{Account, Asymmetry, Damper, Force, ForceSums, Instant, RingWrench, Use};
+use crate::model::{BodyId, Dof, Model, Race, StructureModel};
 
 /// Seat of the outer ring.
 #[derive(Debug)]
@@ -69,9 +69,19 @@ impl Force for Seat {
         Vec::new()
     }
 
-    fn along_z(&self, model: &Model) -> Option<String> {
-        let structure = model.structure.as_ref()?;
-        let couples = structure.couples_z();
-        couples.then(|| "the structure moves the seat along z with its plane".to_owned())
+    fn at_start(&self, _model: &Model, _race: Race) -> RingWrench {
+        RingWrench::default()
+    }
+
+    fn asymmetry(&self, model: &Model) -> Asymmetry {
+        let couples = model
+            .structure
+            .as_ref()
+            .is_some_and(StructureModel::couples_z);
+        Asymmetry {
+            along_z: couples
+                .then(|| "the structure moves the seat along z with its plane".to_owned()),
+            ..Asymmetry::default()
+        }
     }
 }

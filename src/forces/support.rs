@@ -4,7 +4,9 @@
 //! F = −k (q − q₀) − c v        energy k (q − q₀)²/2        power c v²
 //! ```
 
-use super::{Account, Damper, Force, ForceSums, Instant, State, Table, Use, tilted};
+use super::{
+    Account, Asymmetry, Damper, Force, ForceSums, Instant, RingWrench, State, Table, Use, tilted,
+};
 use crate::model::{Body, BodyId, Degree, Dof, Model, Race, Spring};
 
 /// Springs and dampers of all bodies, of tilts too.
@@ -47,6 +49,14 @@ impl Force for Supports {
             rate: rate(model, body),
         };
         model.layout().bodies().map(of).collect()
+    }
+
+    fn at_start(&self, _model: &Model, _race: Race) -> RingWrench {
+        RingWrench::default()
+    }
+
+    fn asymmetry(&self, _model: &Model) -> Asymmetry {
+        Asymmetry::default()
     }
 }
 

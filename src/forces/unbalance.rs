@@ -13,7 +13,7 @@
 
 use nalgebra::Vector3;
 
-use super::{Account, Damper, Force, Instant, RingWrench, State, Use, drive};
+use super::{Account, Asymmetry, Damper, Force, Instant, RingWrench, State, Use, drive};
 use crate::contact::{V2, cross};
 use crate::model::{DOFS, Dof, Model, Race, UnbalanceModel};
 use crate::tilt::Frame;
@@ -79,14 +79,14 @@ impl Force for Unbalances {
         sum
     }
 
-    fn tilting(&self, model: &Model) -> Option<String> {
+    fn asymmetry(&self, model: &Model) -> Asymmetry {
         let off = |unbalance: &UnbalanceModel| unbalance.place != 0.0;
         let is_off = model.unbalances.iter().any(off);
-        is_off.then(|| "an unbalance is off the ring's centre of mass".to_owned())
-    }
-
-    fn turns_with_ring(&self, model: &Model) -> bool {
-        !model.unbalances.is_empty()
+        Asymmetry {
+            along_z: None,
+            tilting: is_off.then(|| "an unbalance is off the ring's centre of mass".to_owned()),
+            turns_with_ring: !model.unbalances.is_empty(),
+        }
     }
 }
 

@@ -114,7 +114,9 @@ pub(super) fn is_felt(model: &Model, reason: Reason) -> bool {
                 let pair = &row.pairs[race];
                 pair.law.turns_balls() || !pair.defects.is_empty() || !pair.waves.is_round()
             });
-            let turns = forces::ALL.iter().any(|force| force.turns_with_ring(model));
+            let turns = forces::ALL
+                .iter()
+                .any(|force| force.asymmetry(model).turns_with_ring);
             on_ring || model.has_films_in_motion() || turns
         }
         Reason::Held | Reason::Mirror | Reason::Copy => true,

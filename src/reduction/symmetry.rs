@@ -157,7 +157,9 @@ pub(super) fn of_tilts(model: &Model, start: &[f64], mirrored: bool) -> Symmetry
 
 /// No force may tilt a ring.
 fn no_moments(model: &Model) -> Symmetry {
-    let found = forces::ALL.iter().find_map(|force| force.tilting(model));
+    let found = forces::ALL
+        .iter()
+        .find_map(|force| force.asymmetry(model).tilting);
     found.map_or(Ok(()), Err)
 }
 
@@ -201,7 +203,9 @@ fn nothing_axial(model: &Model) -> Symmetry {
     require(!model.has_given_motions_off_plane(), || {
         "a motion is given out of the plane".to_owned()
     })?;
-    let found = forces::ALL.iter().find_map(|force| force.along_z(model));
+    let found = forces::ALL
+        .iter()
+        .find_map(|force| force.asymmetry(model).along_z);
     found.map_or(Ok(()), Err)
 }
 

@@ -5,9 +5,11 @@
 //! F = k_c (ℓ − ℓ₀ ∓ p/2) + c_c dℓ/dt        energy k_c (ℓ − ℓ₀ ∓ p/2)²/2        power c_c (dℓ/dt)²
 //! ```
 
-use super::super::{Account, Damper, Force, ForceSums, Instant, State, Table, Use};
+use super::super::{
+    Account, Asymmetry, Damper, Force, ForceSums, Instant, RingWrench, State, Table, Use,
+};
 use crate::contact::Motion;
-use crate::model::{BodyId, Dof, Model, RowModel};
+use crate::model::{BodyId, Dof, Model, Race, RowModel};
 use crate::scene;
 use crate::simd::{Simd, Vector, Wide};
 
@@ -58,6 +60,14 @@ impl Force for LinkForces {
             rate: rate(model, row),
         };
         (0..model.rows.len()).map(of).collect()
+    }
+
+    fn at_start(&self, _model: &Model, _race: Race) -> RingWrench {
+        RingWrench::default()
+    }
+
+    fn asymmetry(&self, _model: &Model) -> Asymmetry {
+        Asymmetry::default()
     }
 }
 

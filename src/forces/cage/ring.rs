@@ -27,7 +27,7 @@
 
 use nalgebra::Vector3;
 
-use super::super::{Account, Damper, Force, ForceSums, Instant, RingWrench, State, Use};
+use super::super::{Account, Asymmetry, Damper, Force, ForceSums, Instant, RingWrench, State, Use};
 use super::centre::{Centred, on_land, unbalanced};
 use super::pocket::{InPocket, Turning, Wall, towards, wall};
 use crate::contact::{Motion, V2, cross};
@@ -103,6 +103,14 @@ impl Force for CageRings {
             })
         };
         rows.filter_map(of).collect()
+    }
+
+    fn at_start(&self, _model: &Model, _race: Race) -> RingWrench {
+        RingWrench::default()
+    }
+
+    fn asymmetry(&self, _model: &Model) -> Asymmetry {
+        Asymmetry::default()
     }
 }
 
