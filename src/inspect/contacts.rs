@@ -6,6 +6,7 @@ use crate::base::nulls;
 
 use crate::contact::{ContactForce, Pair, Sink, V2};
 use crate::model::{Model, Race};
+use crate::scene::ContactQuantity;
 
 /// A contact in a few numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -24,6 +25,19 @@ pub struct ContactSummary {
     /// Load-weighted slip speed \[m/s\]; NaN without load.
     #[serde(deserialize_with = "nulls::number")]
     pub slip: f64,
+}
+
+impl ContactSummary {
+    /// Value of a quantity.
+    pub(crate) fn get(&self, quantity: ContactQuantity) -> f64 {
+        match quantity {
+            ContactQuantity::Load => self.load,
+            ContactQuantity::Angle => self.angle,
+            ContactQuantity::ZoneCentre => self.zone_centre,
+            ContactQuantity::ZoneWidth => self.zone_width,
+            ContactQuantity::Slip => self.slip,
+        }
+    }
 }
 
 /// The force of one slice.

@@ -93,13 +93,22 @@ pub(crate) fn energy(model: &Model, y: &[f64]) -> Energy {
     if model.tilts() {
         energy.kinetic += of_tilt(model, y);
     }
-    let mut account = Account::default();
+    let mut sum = Account::default();
     for force in forces::ALL {
-        account += force.account(model, y);
+        sum += force.account(model, y);
     }
-    energy.kinetic += account.kinetic;
-    (energy.cage, energy.support) = (account.cage, account.support);
-    (energy.gravity, energy.support_power) = (account.gravity, account.power);
+    // Named one by one, so that the compiler asks about a new field.
+    let Account {
+        kinetic,
+        support,
+        cage,
+        gravity,
+        power,
+        damping,
+    } = sum;
+    energy.kinetic += kinetic;
+    (energy.cage, energy.support) = (cage, support);
+    (energy.gravity, energy.support_power) = (gravity, power);
     let mut contacts = Contacts::default();
     for (j, ball) in model.balls.iter().enumerate() {
         for race in Race::BOTH {
@@ -110,7 +119,7 @@ pub(crate) fn energy(model: &Model, y: &[f64]) -> Energy {
     }
     energy.contact = contacts.energy;
     let powers = contacts.powers;
-    energy.damping_power = powers.damping + account.damping;
+    energy.damping_power = powers.damping + damping;
     energy.friction_power = powers.slip;
     energy.rolling_power = powers.rolling;
     energy

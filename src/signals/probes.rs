@@ -300,13 +300,7 @@ impl ProbeReader {
             } => {
                 for (j, race) in contacts {
                     let contact = inspect::raw::contact(model, y, *j, *race);
-                    values.extend(quantities.iter().map(|quantity| match quantity {
-                        ContactQuantity::Load => contact.load,
-                        ContactQuantity::Angle => contact.angle,
-                        ContactQuantity::ZoneCentre => contact.zone_centre,
-                        ContactQuantity::ZoneWidth => contact.zone_width,
-                        ContactQuantity::Slip => contact.slip,
-                    }));
+                    values.extend(quantities.iter().map(|quantity| contact.get(*quantity)));
                 }
             }
             Self::Cage { row } => {
