@@ -12,142 +12,59 @@ Where a field may be one of several things, its type says so: ``friction="none"`
 from __future__ import annotations
 
 from .._base.later import listed
-from .bearing import GothicArch, RaceProfile, Ring, RingName, Row, Waviness
-from .cage import Cage, CageGuidance, CageRing
-from .contact import (
-    AccurateSlices,
-    Contact,
-    FittedSlices,
-    FixedSlices,
-    Iso16281,
-    NormalLaw,
-    Slices,
-    SqueezeFilm,
-)
-from .defect import (
-    AxialOffset,
-    Cap,
-    Defect,
-    DefectShape,
-    DefectWalls,
-    Dent,
-    Floor,
-    Patch,
-    Pit,
-    SteepPatch,
-    Surface,
-    Width,
-    WidthProfile,
-)
-from .drive import Drive, SpeedDrive, TorqueDrive
-from .friction import Coulomb, Friction, Stribeck, Traction
-from .load import Load, Moment, TableForce, Unbalance
-from .lubricant import BaseOil, Lubricant, NamedOil, OilLayer, OilProperties
-from .material import Material, Materials
-from .probe import (
-    CageProbe,
-    Component,
-    ContactQuantity,
-    ContactsProbe,
-    EnergyProbe,
-    ForcesProbe,
-    LubricationProbe,
-    MomentsProbe,
-    MotionProbe,
-    Probe,
-    SeatProbe,
-    SlicesProbe,
-    StructureProbe,
-    TorqueProbe,
-)
-from .scene import Scene, Spin
-from .solver import Method, Solver
-from .structure import Compliance, Mode, Structure
-from .support import CoupledSupport, Given, Mount, Spring, Support
-from .texture import Texture
-from .time import Ramp, Sine, Spline, Table, TimeFunction
 
-__all__ = [
-    "AccurateSlices",
-    "AxialOffset",
-    "BaseOil",
-    "Cage",
-    "CageGuidance",
-    "CageProbe",
-    "CageRing",
-    "Cap",
-    "Compliance",
-    "Component",
-    "Contact",
-    "ContactQuantity",
-    "ContactsProbe",
-    "Coulomb",
-    "CoupledSupport",
-    "Defect",
-    "DefectShape",
-    "DefectWalls",
-    "Dent",
-    "Drive",
-    "EnergyProbe",
-    "FittedSlices",
-    "FixedSlices",
-    "Floor",
-    "ForcesProbe",
-    "Friction",
-    "Given",
-    "GothicArch",
-    "Iso16281",
-    "Load",
-    "Lubricant",
-    "LubricationProbe",
-    "Material",
-    "Materials",
-    "Method",
-    "Mode",
-    "Moment",
-    "MomentsProbe",
-    "MotionProbe",
-    "Mount",
-    "NamedOil",
-    "NormalLaw",
-    "OilLayer",
-    "OilProperties",
-    "Patch",
-    "Pit",
-    "Probe",
-    "RaceProfile",
-    "Ramp",
-    "Ring",
-    "RingName",
-    "Row",
-    "Scene",
-    "SeatProbe",
-    "Sine",
-    "Slices",
-    "SlicesProbe",
-    "Solver",
-    "SpeedDrive",
-    "Spin",
-    "Spline",
-    "Spring",
-    "SqueezeFilm",
-    "SteepPatch",
-    "Stribeck",
-    "Structure",
-    "StructureProbe",
-    "Support",
-    "Surface",
-    "Table",
-    "TableForce",
-    "Texture",
-    "TimeFunction",
-    "TorqueDrive",
-    "TorqueProbe",
-    "Traction",
-    "Unbalance",
-    "Waviness",
-    "Width",
-    "WidthProfile",
-]
+# ruff: noqa: F403 - each module lists what is public of it
+from . import (
+    bearing,
+    cage,
+    contact,
+    defect,
+    drive,
+    friction,
+    load,
+    lubricant,
+    material,
+    probe,
+    scene,
+    solver,
+    structure,
+    support,
+    texture,
+    time,
+)
+from .bearing import *
+from .cage import *
+from .contact import *
+from .defect import *
+from .drive import *
+from .friction import *
+from .load import *
+from .lubricant import *
+from .material import *
+from .probe import *
+from .scene import *
+from .solver import *
+from .structure import *
+from .support import *
+from .texture import *
+from .time import *
+
+__all__: list[str] = []
+__all__ += bearing.__all__
+__all__ += cage.__all__
+__all__ += contact.__all__
+__all__ += defect.__all__
+__all__ += drive.__all__
+__all__ += friction.__all__
+__all__ += load.__all__
+__all__ += lubricant.__all__
+__all__ += material.__all__
+__all__ += probe.__all__
+__all__ += scene.__all__
+__all__ += solver.__all__
+__all__ += structure.__all__
+__all__ += support.__all__
+__all__ += texture.__all__
+__all__ += time.__all__
 
 __dir__ = listed(__name__)

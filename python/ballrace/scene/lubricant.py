@@ -16,7 +16,7 @@ from .._base.document import INSTEAD, Part, encode
 from .._base.numbers import finite
 from ..errors import SceneError
 
-__all__ = ["BaseOil", "Lubricant", "NamedOil", "OilLayer", "OilProperties", "lubricants"]
+__all__ = ["BaseOil", "Lubricant", "NamedOil", "OilLayer", "OilProperties"]
 
 BaseOil = Literal["mineral", "naphthenic", "pao", "pag", "ester"]
 """Kind of base oil: pressure-viscosity and limiting shear stress follow from it where they are not given."""

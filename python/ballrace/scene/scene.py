@@ -30,7 +30,7 @@ from .solver import Solver
 from .structure import Structure
 from .time import TimeFunction
 
-__all__ = ["Scene", "Spin", "checked_scene"]
+__all__ = ["Scene", "Spin"]
 
 
 Spin = Literal["axial", "free"]
