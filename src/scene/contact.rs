@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::absent;
 use super::numbers::{BoundedNumber, POSITIVE, up_to};
+use super::ranges::{PartNumbers, UNSAID as X};
 
 /// Contact of a ball and a race: elastic law, slices, damping.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -292,4 +293,37 @@ impl Friction {
             }
         })
     }
+}
+
+/// Numbers of contacts and their laws, for the schema.
+pub(super) fn parts() -> Vec<PartNumbers> {
+    let coulomb = Friction::Coulomb {
+        coefficient: X,
+        slip_speed: X,
+    };
+    let stribeck = Friction::Stribeck {
+        static_coefficient: X,
+        kinetic_coefficient: X,
+        stribeck_speed: X,
+        slip_speed: X,
+    };
+    let traction = Friction::Traction {
+        a: X,
+        b: X,
+        c: X,
+        d: X,
+        slip_speed: X,
+    };
+    let friction = |of: Friction| of.numbers().map_or_else(Vec::new, |(_, numbers)| numbers);
+    vec![
+        ("Contact", Contact::default().numbers().into()),
+        ("SqueezeFilm", SqueezeFilm::default().numbers().into()),
+        ("Iso16281", NormalLaw::iso16281().numbers().1),
+        ("FixedSlices", vec![Slices::Fixed(1).numbers()]),
+        ("FittedSlices", vec![Slices::Fitted(1).numbers()]),
+        ("AccurateSlices", vec![Slices::Accuracy(X).numbers()]),
+        ("Coulomb", friction(coulomb)),
+        ("Stribeck", friction(stribeck)),
+        ("Traction", friction(traction)),
+    ]
 }

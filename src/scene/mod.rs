@@ -70,7 +70,7 @@ pub use bearing::{GothicArch, RaceProfile, Row, Waviness};
 pub use cage::{Cage, CageGuidance, CageLinks, CageRing};
 pub use contact::{Contact, Friction, NormalLaw, Slices, SqueezeFilm};
 pub use contact_quantity::ContactQuantity;
-pub use damage::{Cap, Damage, Dent, Patch, Pit, RIM, SteepPatch};
+pub use damage::*;
 pub use defect::Defect;
 pub(crate) use document::interpret;
 pub(crate) use doubt::{AtSpeed, FilmJudged};

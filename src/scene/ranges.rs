@@ -7,11 +7,11 @@ use serde_json::{Map, Value, json};
 
 use super::numbers::BoundedNumber;
 use super::{
-    CageLinks, CageRing, Cap, Contact, CoupledSupport, Damage, Defect, Dent, Drive, Floor,
-    Friction, GothicArch, Load, Lubricant, Material, Mode, Mount, NormalLaw, Patch, Pit,
-    RaceProfile, Ring, RingName, Row, Scene, Slices, SlicesProbe, Solver, SqueezeFilm, SteepPatch,
+    CageLinks, CageRing, CoupledSupport, Defect, Drive, Floor, GothicArch, Load, Lubricant,
+    Material, Mode, Mount, Pit, RaceProfile, Ring, RingName, Row, Scene, SlicesProbe, Solver,
     Surface, TableForce, Texture, Unbalance, Waviness, WidthProfile,
 };
+use super::{contact, damage};
 
 /// What JSON Schema says of the numbers of each part, by the part and its field: `minimum`, `maximum`, `exclusiveMinimum`,
 /// `exclusiveMaximum`; of lists under `items`. Ranges that depend on other fields are not there.
@@ -49,15 +49,17 @@ fn keywords(number: &BoundedNumber) -> Value {
 }
 
 /// Numbers of a part by its name.
-type PartNumbers = (&'static str, Vec<BoundedNumber>);
+pub(super) type PartNumbers = (&'static str, Vec<BoundedNumber>);
 
 /// The numbers of every part that has any, whatever their values.
 fn parts() -> Vec<PartNumbers> {
-    let all = [of_bearings(), of_contacts(), of_loads(), of_defects()];
+    let all = [of_bearings(), contact::parts(), of_loads(), of_defects()];
     all.into_iter().flatten().collect()
 }
 
-const X: f64 = f64::NAN;
+/// A number of which the range alone is asked.
+pub(super) const UNSAID: f64 = f64::NAN;
+const X: f64 = UNSAID;
 
 fn of_bearings() -> Vec<PartNumbers> {
     let profile = RaceProfile::new(Vec::new(), Vec::new());
@@ -87,49 +89,17 @@ fn of_bearings() -> Vec<PartNumbers> {
     ]
 }
 
-fn of_contacts() -> Vec<PartNumbers> {
-    let coulomb = Friction::Coulomb {
-        coefficient: X,
-        slip_speed: X,
-    };
-    let stribeck = Friction::Stribeck {
-        static_coefficient: X,
-        kinetic_coefficient: X,
-        stribeck_speed: X,
-        slip_speed: X,
-    };
-    let traction = Friction::Traction {
-        a: X,
-        b: X,
-        c: X,
-        d: X,
-        slip_speed: X,
-    };
-    let friction = |of: Friction| of.numbers().map_or_else(Vec::new, |(_, numbers)| numbers);
-    let oil = Lubricant::new(X, X, X);
-    let of_oil = oil.numbers_of_oil().into_iter().chain(oil.numbers());
-    vec![
-        ("Contact", Contact::default().numbers().into()),
-        ("SqueezeFilm", SqueezeFilm::default().numbers().into()),
-        ("Iso16281", NormalLaw::iso16281().numbers().1),
-        ("FixedSlices", vec![Slices::Fixed(1).numbers()]),
-        ("FittedSlices", vec![Slices::Fitted(1).numbers()]),
-        ("AccurateSlices", vec![Slices::Accuracy(X).numbers()]),
-        ("Coulomb", friction(coulomb)),
-        ("Stribeck", friction(stribeck)),
-        ("Traction", friction(traction)),
-        ("Lubricant", of_oil.collect()),
-    ]
-}
-
 fn of_loads() -> Vec<PartNumbers> {
     let ring = RingName::Outer;
     let table = TableForce::new(ring, [X; 3], [], []);
+    let oil = Lubricant::new(X, X, X);
+    let of_oil = oil.numbers_of_oil().into_iter().chain(oil.numbers());
     let torque = Drive::Torque {
         value: X.into(),
         initial_speed: X,
     };
     vec![
+        ("Lubricant", of_oil.collect()),
         ("TorqueDrive", torque.numbers().into_iter().collect()),
         ("Scene", Scene::new(Vec::new(), torque).numbers()),
         ("Load", Load::new(ring, [X; 3], X).numbers()),
@@ -141,18 +111,13 @@ fn of_loads() -> Vec<PartNumbers> {
 }
 
 fn of_defects() -> Vec<PartNumbers> {
-    let dent = Dent::of_width(X).depth(X);
-    let defect = Defect::of(dent.clone(), Surface::OuterRace, X);
+    let defect = Defect::of(Pit::of_width(X), Surface::OuterRace, X);
     let profile = WidthProfile::new(Vec::new(), Vec::new());
-    let damage = |of: Damage| of.numbers();
-    vec![
+    let mut all = damage::parts();
+    all.extend([
         ("Defect", defect.numbers().into()),
-        ("Patch", damage(Patch::of_width(X).into())),
-        ("SteepPatch", damage(SteepPatch::of_width(X).into())),
-        ("Cap", damage(Cap::of_width(X).into())),
-        ("Pit", damage(Pit::of_width(X).into())),
-        ("Dent", damage(dent.into())),
         ("Floor", Floor::new(X, 1).numbers().into()),
         ("WidthProfile", profile.numbers()),
-    ]
+    ]);
+    all
 }

@@ -29,7 +29,7 @@ use nalgebra::Vector3;
 use super::arc::{Arc, EdgeCourse, Rim, Station};
 use super::direction::ContactDirection;
 use super::patch::CircleEdges;
-use super::{Acts, AnyDamage, Bed, Cuts, DamageKind, MARGIN, SurfaceDefect};
+use super::{Acts, AnyForm, Bed, CompiledForm, Cuts, MARGIN, SurfaceDefect};
 use crate::contact::{V2, turned};
 
 /// A cap, compiled.
@@ -51,7 +51,7 @@ pub(super) enum Lost {
     All,
 }
 
-impl DamageKind for CompiledCap {
+impl CompiledForm for CompiledCap {
     fn reach(&self, angle: f64, bed: &Bed) -> f64 {
         MARGIN * self.widest(&self.direction(angle, bed.middle))
     }
@@ -80,8 +80,8 @@ impl DamageKind for CompiledCap {
         None
     }
 
-    fn mirrored(&self) -> AnyDamage {
-        AnyDamage::Cap(*self)
+    fn mirrored(&self) -> AnyForm {
+        AnyForm::Cap(*self)
     }
 
     fn acts(&self) -> Acts<'_> {
@@ -124,13 +124,8 @@ impl Cuts for CompiledCap {
 }
 
 impl CompiledCap {
-    /// A cap of a ball, compiled.
-    pub fn compiled(width: f64, edges: CircleEdges, bed: &Bed) -> AnyDamage {
-        AnyDamage::Cap(Self::new(width, bed.radius, edges))
-    }
-
-    /// A cap so wide along the surface of a ball \[m\].
-    fn new(width: f64, radius: f64, edges: CircleEdges) -> Self {
+    /// A cap so wide along the surface of a ball of a radius \[m\], compiled.
+    pub fn new(width: f64, radius: f64, edges: CircleEdges) -> Self {
         let (sin, cos) = (width / (2.0 * radius)).sin_cos();
         Self {
             radius,

@@ -55,7 +55,7 @@ impl<'a> ContactDirection<'a> {
 
     /// Half of the angle over which a defect may be met \[rad\].
     pub fn half(&self, defect: &SurfaceDefect) -> f64 {
-        defect.kind.get().half(defect, self.pole(defect).as_ref())
+        defect.form.get().half(defect, self.pole(defect).as_ref())
     }
 
     /// How fast a defect turns about the ring's axis \[rad/s\], of a body with this angular speed about it.

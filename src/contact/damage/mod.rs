@@ -1,4 +1,4 @@
-//! Damage of surfaces: one file for each kind behind the trait [`DamageKind`], and what a contact meets where a surface is damaged.
+//! Damage of surfaces: one file for each form behind the trait [`CompiledForm`], and what a contact meets where a surface is damaged.
 //!
 //! A damage acts in one of two ways ([`Acts`]): the surface is absent over arcs at whose ends fault circles stand
 //! ([*Defects*](crate::equations#defects)), or the contact keeps whole surfaces and changes its energy, and with it its force. [`Facing`]
@@ -7,14 +7,13 @@
 
 mod arc;
 mod cap;
-mod dent;
 mod depth;
 mod direction;
 mod facing;
 mod gradient;
 mod hole;
 mod patch;
-mod pit;
+mod recess;
 mod released;
 mod small;
 mod surfaces;
@@ -25,15 +24,12 @@ use nalgebra::Vector3;
 
 use super::{Motion, V2, wrapped};
 use crate::contact::hertz::Hertz;
-use crate::scene::{Damage, Defect, Row};
+use crate::scene::{Defect, Form, Row};
 pub(super) use arc::WITH_RING_AXIS;
 use arc::{Arc, Station};
 use cap::CompiledCap;
-use dent::CompiledDent;
-use hole::Released;
 use patch::{CircleEdges, CompiledPatch};
-use pit::CompiledPit;
-use small::SmallBed;
+use recess::CompiledRecess;
 
 pub(super) use depth::{Depth, Sloped};
 pub(super) use facing::{Facing, Node, SurfaceSide};
@@ -61,7 +57,7 @@ pub struct SurfaceDefect {
     /// The largest half-angle, and a little more: a contact further away never meets the defect \[rad\]. Of a cap while its ball is as at
     /// the start.
     pub(crate) reach: f64,
-    kind: AnyDamage,
+    form: AnyForm,
 }
 
 /// The surface in which a damage lies.
@@ -88,60 +84,69 @@ impl Bed {
     }
 }
 
-/// A compiled damage of any kind.
+/// A compiled damage of any form.
 #[derive(Debug, Clone, PartialEq)]
-enum AnyDamage {
+enum AnyForm {
     Patch(CompiledPatch),
     Cap(CompiledCap),
-    Pit(CompiledPit),
-    Dent(CompiledDent),
+    Recess(CompiledRecess),
 }
 
-impl AnyDamage {
-    /// A damage compiled in its bed.
+impl AnyForm {
+    /// A form compiled in its bed.
     ///
     /// # Panics
     /// For steep walls, in whose place a scene gets a patch before it is compiled.
-    fn new(damage: &Damage, bed: &Bed) -> Self {
-        match damage {
-            Damage::Patch(of) => {
-                let edges = CircleEdges::new(of.edge_radius, of.floor.as_ref());
-                CompiledPatch::compiled(of.length, &of.width, edges)
+    fn new(form: &Form<'_>, bed: &Bed) -> Self {
+        match *form {
+            Form::Slot {
+                length,
+                ref width,
+                edge_radius,
+                floor,
+            } => {
+                let radius =
+                    edge_radius.expect("steep walls are placed before a scene is compiled");
+                let edges = CircleEdges::new(radius, floor);
+                Self::Patch(CompiledPatch::new(length, width, edges))
             }
-            Damage::SteepPatch(_) => panic!("steep walls are placed before a scene is compiled"),
-            Damage::Cap(of) => {
-                let edges = CircleEdges::new(of.edge_radius, of.floor.as_ref());
-                CompiledCap::compiled(of.width, edges, bed)
+            Form::Circle {
+                width,
+                edge_radius,
+                floor,
+            } => {
+                let edges = CircleEdges::new(edge_radius, floor);
+                Self::Cap(CompiledCap::new(width, bed.radius, edges))
             }
-            Damage::Pit(of) => CompiledPit::compiled(of.width, of.length, bed),
-            Damage::Dent(of) => {
-                CompiledDent::compiled(of.width, of.length, of.depth, of.rim_height, bed)
-            }
+            Form::Recess {
+                width,
+                length,
+                depth,
+                rim_height,
+            } => Self::Recess(CompiledRecess::new(width, length, depth, rim_height, bed)),
         }
     }
 
-    fn get(&self) -> &dyn DamageKind {
+    fn get(&self) -> &dyn CompiledForm {
         match self {
-            Self::Patch(kind) => kind,
-            Self::Cap(kind) => kind,
-            Self::Pit(kind) => kind,
-            Self::Dent(kind) => kind,
+            Self::Patch(form) => form,
+            Self::Cap(form) => form,
+            Self::Recess(form) => form,
         }
     }
 
-    fn get_mut(&mut self) -> &mut dyn DamageKind {
+    fn get_mut(&mut self) -> &mut dyn CompiledForm {
         match self {
-            Self::Patch(kind) => kind,
-            Self::Cap(kind) => kind,
-            Self::Pit(kind) => kind,
-            Self::Dent(kind) => kind,
+            Self::Patch(form) => form,
+            Self::Cap(form) => form,
+            Self::Recess(form) => form,
         }
     }
 }
 
-/// Questions to a kind of damage. Where `e` is given, it is the direction of the damage's middle in the frame in which the ball that
+/// Questions to a form of damage. Where `e` is given, it is the direction of the damage's middle in the frame in which the ball that
 /// has it is seen.
-trait DamageKind {
+trait CompiledForm {
     /// The largest half-angle at which a contact may meet it in its bed, and a little more \[rad\].
     fn reach(&self, angle: f64, bed: &Bed) -> f64;
 
@@ -163,7 +168,7 @@ trait DamageKind {
     fn widened(&mut self, half_width: f64) -> Option<f64>;
 
     /// The same in a mirror, z → −z.
-    fn mirrored(&self) -> AnyDamage;
+    fn mirrored(&self) -> AnyForm;
 
     /// Action of the damage on contacts.
     fn acts(&self) -> Acts<'_>;
@@ -174,7 +179,7 @@ enum Acts<'a> {
     /// The surface is absent over arcs.
     Cuts(&'a dyn Cuts),
     /// Surfaces stay whole, and the energy of the contact changes.
-    Releases(&'a dyn Releases),
+    Releases(&'a CompiledRecess),
 }
 
 /// A damage with arcs over which the surface is absent.
@@ -196,19 +201,6 @@ trait Cuts {
 
     /// Depth \[m\] and number of the recessed circles.
     fn floor(&self) -> Option<(f64, usize)>;
-}
-
-/// A damage smaller than its contacts.
-trait Releases {
-    /// The place of the damage.
-    fn bed(&self) -> &SmallBed;
-
-    /// Half of the damage's extent across the race \[m\].
-    fn across(&self) -> f64;
-
-    /// Effect on the energy of a contact with the outer (0) or the inner race (1) at an approach \[m\] and a place (x₀, y₀) of its
-    /// middle in the contact \[m\].
-    fn released(&self, race: usize, depth: f64, at: [f64; 2]) -> Released;
 }
 
 /// Directions in the frame of the scene: those whose component along the middle, over their length, is above a bound.
@@ -257,19 +249,19 @@ impl SurfaceDefect {
 
     /// A defect in its bed.
     pub(super) fn within(defect: &Defect, bed: &Bed) -> Self {
-        let kind = AnyDamage::new(&defect.damage, bed);
+        let form = AnyForm::new(&defect.damage.form(), bed);
         Self {
             angle: defect.angle,
             middle: bed.middle,
             film_layer: 0.0,
-            reach: kind.get().reach(defect.angle, bed),
-            kind,
+            reach: form.get().reach(defect.angle, bed),
+            form,
         }
     }
 
     /// The direction of the middle of what turns with its ball, in the frame in which the ball is seen.
     fn pole(&self, ball: &Motion) -> Option<Vector3<f64>> {
-        let pole = self.kind.get().pole(self)?;
+        let pole = self.form.get().pole(self)?;
         Some(ball.carried(&pole))
     }
 
@@ -279,7 +271,7 @@ impl SurfaceDefect {
         let image = Self {
             middle: self.middle,
             reach: self.reach,
-            kind: other.kind.get().mirrored(),
+            form: other.form.get().mirrored(),
             ..*other
         };
         (self.middle + other.middle - sum).abs() <= rounding
@@ -301,7 +293,7 @@ impl SurfaceDefect {
     /// Whether a contact in this direction may meet the defect.
     pub(crate) fn in_reach(&self, direction: &ContactDirection) -> bool {
         let e = direction.pole(self);
-        self.kind.get().is_near(self, direction, e.as_ref())
+        self.form.get().is_near(self, direction, e.as_ref())
     }
 
     /// Whether the surface is absent over arcs, and not whole.
@@ -310,14 +302,14 @@ impl SurfaceDefect {
     }
 
     fn as_cuts(&self) -> Option<&dyn Cuts> {
-        match self.kind.get().acts() {
+        match self.form.get().acts() {
             Acts::Cuts(cuts) => Some(cuts),
             Acts::Releases(_) => None,
         }
     }
 
-    fn as_releases(&self) -> Option<&dyn Releases> {
-        match self.kind.get().acts() {
+    fn as_releases(&self) -> Option<&CompiledRecess> {
+        match self.form.get().acts() {
             Acts::Cuts(_) => None,
             Acts::Releases(releases) => Some(releases),
         }
@@ -343,9 +335,9 @@ impl SurfaceDefect {
     /// Whether the surface is absent at an axial place where it has this radius, or a contact met there, in a direction this far from the
     /// defect's own \[rad\]; `ball` is the orientation of the ball that has it.
     pub(crate) fn covers(&self, z: f64, radius: f64, offset: f64, ball: &Motion) -> bool {
-        let cuts = match self.kind.get().acts() {
+        let cuts = match self.form.get().acts() {
             Acts::Cuts(cuts) => cuts,
-            Acts::Releases(small) => return offset.abs() <= small.bed().span,
+            Acts::Releases(small) => return offset.abs() <= small.bed.span,
         };
         let at = Station {
             z,
@@ -379,7 +371,7 @@ impl SurfaceDefect {
 
     /// Takes over the half-width of contacts under a typical load \[m\].
     pub(crate) fn widen(&mut self, half_width: f64) {
-        if let Some(reach) = self.kind.get_mut().widened(half_width) {
+        if let Some(reach) = self.form.get_mut().widened(half_width) {
             self.reach = reach;
         }
     }
@@ -407,7 +399,7 @@ impl SurfaceDefect {
     pub(crate) fn takes(&self, race: usize, contact: &Hertz, load: f64) -> Option<(f64, f64)> {
         let (small, depth) = (self.as_releases()?, contact.approach(load));
         let released = small.released(race, depth, [0.0; 2]);
-        let of = &small.bed().contacts[race];
+        let of = &small.bed.contacts[race];
         let found = Unloading::of(of, 0.4 * load * depth, &[released]);
         Some((load * (1.0 - found.share), found.exponent))
     }

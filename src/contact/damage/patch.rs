@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 
 use super::arc::{Arc, EdgeCourse, Station};
 use super::direction::ContactDirection;
-use super::{Acts, AnyDamage, Bed, Cuts, DamageKind, MARGIN, SurfaceDefect};
+use super::{Acts, AnyForm, Bed, CompiledForm, Cuts, MARGIN, SurfaceDefect};
 use crate::contact::V2;
 use crate::scene::{Floor, Width};
 
@@ -38,16 +38,16 @@ impl CircleEdges {
 
 impl CompiledPatch {
     /// A patch of a surface, compiled.
-    pub fn compiled(length: f64, width: &Width, edges: CircleEdges) -> AnyDamage {
-        AnyDamage::Patch(Self {
+    pub fn new(length: f64, width: &Width, edges: CircleEdges) -> Self {
+        Self {
             length,
             width: width.clone(),
             edges,
-        })
+        }
     }
 }
 
-impl DamageKind for CompiledPatch {
+impl CompiledForm for CompiledPatch {
     fn reach(&self, _angle: f64, bed: &Bed) -> f64 {
         MARGIN * self.width.largest() / (2.0 * bed.least)
     }
@@ -73,8 +73,8 @@ impl DamageKind for CompiledPatch {
         None
     }
 
-    fn mirrored(&self) -> AnyDamage {
-        AnyDamage::Patch(Self {
+    fn mirrored(&self) -> AnyForm {
+        AnyForm::Patch(Self {
             width: self.width.reversed(),
             ..self.clone()
         })

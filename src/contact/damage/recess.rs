@@ -1,6 +1,7 @@
-//! Dents with a raised rim, as a hard particle leaves them between ball and race: a hole of some depth, and around it what was pushed out.
+//! Recesses smaller than their contact: pits, so deep that nothing meets their floor, and dents with a raised rim, as a hard particle leaves
+//! them between ball and race, a hole of some depth, and around it what was pushed out.
 //!
-//! The energy of a contact over a dent is U = U₀ e^{−V_d/U₀} + R. The surfaces bulge into the recess as into a pit (`hole`), as long as they do
+//! What a pit releases is in `hole`. The energy of a contact over a dent is U = U₀ e^{−V_d/U₀} + R. The surfaces bulge into the recess as into a pit, as long as they do
 //! not meet its floor; it is half an ellipsoid, so that
 //!
 //! ```text
@@ -37,7 +38,7 @@ use nalgebra::Vector3;
 use super::direction::ContactDirection;
 use super::hole::{EnergyAt, HALF, Hole, PittedContact, Released};
 use super::small::{SmallBed, half_axes};
-use super::{Acts, AnyDamage, Bed, DamageKind, Releases, SurfaceDefect};
+use super::{Acts, AnyForm, Bed, CompiledForm, SurfaceDefect};
 use crate::contact::dual::Dual;
 use crate::scene::RIM;
 use crate::simd::Number;
@@ -48,31 +49,49 @@ const BESIDE_A_HOLE: f64 = 0.24;
 /// A number with its derivatives by δ, x₀ and y₀.
 type Varied = Dual<f64, 3>;
 
-/// A dent, compiled.
+/// A recess, compiled.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct CompiledDent {
+pub(super) struct CompiledRecess {
     hole: Hole,
     half: [f64; 2],
     depth: f64,
-    /// h.
-    rim: f64,
+    /// h; none: no rim.
+    rim: Option<f64>,
     /// ω in contacts with the outer and the inner race.
     open: [f64; 2],
-    bed: SmallBed,
+    /// Place of the recess.
+    pub bed: SmallBed,
 }
 
-impl CompiledDent {
-    /// A dent of a surface, compiled: a width and a length, a depth and the height of the rim.
-    pub fn compiled(width: f64, length: Option<f64>, depth: f64, rim: f64, bed: &Bed) -> AnyDamage {
+impl CompiledRecess {
+    /// A recess of a surface, compiled: a width and a length, a depth and the height of the rim, if it has one.
+    pub fn new(width: f64, length: Option<f64>, depth: f64, rim: Option<f64>, bed: &Bed) -> Self {
         let half = half_axes(width, length);
-        AnyDamage::Dent(Self {
+        let along = rim.map_or(half[1], |_| RIM * half[1]);
+        Self {
             hole: Hole::new(half),
             half,
             depth,
             rim,
             open: [1.0; 2],
-            bed: SmallBed::new(RIM * half[1], bed),
-        })
+            bed: SmallBed::new(along, bed),
+        }
+    }
+
+    /// Half of the extent across the race \[m\].
+    pub fn across(&self) -> f64 {
+        self.hole.across()
+    }
+
+    /// Effect on the energy of a contact with the outer (0) or the inner race (1) at an approach \[m\] and a place (x₀, y₀) of its
+    /// middle in the contact \[m\].
+    pub fn released(&self, race: usize, depth: f64, at: [f64; 2]) -> Released {
+        let of = &self.bed.contacts[race];
+        let gained = |rim| self.gained(rim, of, depth, at, self.open[race]);
+        Released {
+            lost: self.lost(of, depth, at),
+            gained: self.rim.map(gained).unwrap_or_default(),
+        }
     }
 
     /// V_d.
@@ -92,15 +111,22 @@ impl CompiledDent {
         }
     }
 
-    /// R.
-    fn gained(&self, of: &PittedContact, depth: f64, [x0, y0]: [f64; 2], open: f64) -> EnergyAt {
+    /// R of a rim of a height.
+    fn gained(
+        &self,
+        rim: f64,
+        of: &PittedContact,
+        depth: f64,
+        [x0, y0]: [f64; 2],
+        open: f64,
+    ) -> EnergyAt {
         let [depth, x0, y0] =
             [(depth, 0), (x0, 1), (y0, 2)].map(|(value, i)| Varied::variable(value, i));
         let place = DentPlace { of, depth, x0, y0 };
         let sum = self.within(&place, RIM) + -self.within(&place, 1.0);
-        let top = 4.0 * self.rim / (RIM * RIM - 1.0).powi(2);
+        let top = 4.0 * rim / (RIM * RIM - 1.0).powi(2);
         let pressure = (of.pressure * of.modulus).sqrt();
-        let shallow = Varied::constant(0.5 * self.rim) / depth;
+        let shallow = Varied::constant(0.5 * rim) / depth;
         let fades = Varied::constant(1.0) / (shallow * shallow + 1.0);
         let Dual {
             value: energy,
@@ -210,7 +236,7 @@ impl RimMoments {
     }
 }
 
-impl DamageKind for CompiledDent {
+impl CompiledForm for CompiledRecess {
     fn reach(&self, _angle: f64, _bed: &Bed) -> f64 {
         self.bed.reach()
     }
@@ -241,30 +267,12 @@ impl DamageKind for CompiledDent {
         Some(self.bed.widened(half_width))
     }
 
-    fn mirrored(&self) -> AnyDamage {
-        AnyDamage::Dent(self.clone())
+    fn mirrored(&self) -> AnyForm {
+        AnyForm::Recess(self.clone())
     }
 
     fn acts(&self) -> Acts<'_> {
         Acts::Releases(self)
-    }
-}
-
-impl Releases for CompiledDent {
-    fn bed(&self) -> &SmallBed {
-        &self.bed
-    }
-
-    fn across(&self) -> f64 {
-        self.hole.across()
-    }
-
-    fn released(&self, race: usize, depth: f64, at: [f64; 2]) -> Released {
-        let of = &self.bed.contacts[race];
-        Released {
-            lost: self.lost(of, depth, at),
-            gained: self.gained(of, depth, at, self.open[race]),
-        }
     }
 }
 
@@ -284,19 +292,16 @@ mod tests {
     }
 
     /// A dent in contacts that bear 250 N at most.
-    fn dent(half: [f64; 2], depth: f64, rim: f64) -> CompiledDent {
+    fn dent(half: [f64; 2], depth: f64, rim: f64) -> CompiledRecess {
         let bed = Bed::round(0.0, 23.49e-3, [race(); 2]);
         let (width, length) = (2.0 * half[1], Some(2.0 * half[0]));
-        let AnyDamage::Dent(mut dent) = CompiledDent::compiled(width, length, depth, rim, &bed)
-        else {
-            panic!("a dent is none");
-        };
+        let mut dent = CompiledRecess::new(width, length, depth, Some(rim), &bed);
         dent.widened(0.1157e-3);
         dent
     }
 
     /// Change of the force that a load \[N\] presses with, at one and the same approach.
-    fn change(dent: &CompiledDent, load: f64, at: [f64; 2]) -> f64 {
+    fn change(dent: &CompiledRecess, load: f64, at: [f64; 2]) -> f64 {
         let of = race();
         let depth = (load / of.stiffness).powf(2.0 / 3.0);
         let found = Unloading::of(&of, 0.4 * load * depth, &[dent.released(0, depth, at)]);
@@ -357,7 +362,7 @@ mod tests {
         let (of, depth, half) = (race(), 3e-6, [0.1e-3, 0.06e-3]);
         let dent = dent(half, 0.0, 0.3e-6);
         for at in [[0.0, 0.0], [0.3e-3, 0.08e-3], [0.55e-3, -0.1e-3]] {
-            let found = dent.gained(&of, depth, at, 0.0).energy;
+            let found = dent.gained(0.3e-6, &of, depth, at, 0.0).energy;
             let (mut sum, steps) = (0.0, 800_u32);
             let step = half.map(|c| 2.0 * RIM * c / f64::from(steps));
             for (i, j) in (0..steps).flat_map(|i| (0..steps).map(move |j| (i, j))) {
@@ -393,7 +398,10 @@ mod tests {
             for floor in [0.4e-6, 9e-6] {
                 let dent = dent([0.15e-3, 0.1e-3], floor, 0.3e-6);
                 let of_parts = |depth: f64, at: [f64; 2]| {
-                    [dent.lost(&of, depth, at), dent.gained(&of, depth, at, 1.0)]
+                    [
+                        dent.lost(&of, depth, at),
+                        dent.gained(0.3e-6, &of, depth, at, 1.0),
+                    ]
                 };
                 for part in 0..2 {
                     let here = of_parts(depth, at)[part];

@@ -14,9 +14,10 @@
 
 use nalgebra::Vector3;
 
+use super::SurfaceDefect;
 use super::facing::Facing;
 use super::hole::{Released, Unloading};
-use super::{Releases, SurfaceDefect};
+use super::recess::CompiledRecess;
 use crate::contact::profile::Inclination;
 use crate::contact::{PointForce, Sink, V2, turned, wrapped};
 
@@ -53,7 +54,7 @@ enum PlaceBody {
 /// A damage that a contact meets.
 #[derive(Clone, Copy)]
 struct MetDamage<'a> {
-    small: &'a dyn Releases,
+    small: &'a CompiledRecess,
     place: SmallPlace,
 }
 
@@ -69,7 +70,7 @@ impl MetDamages<'_> {
     /// Effect on a contact with the outer (0) or the inner race (1) that has so much elastic energy without damages \[J\]: a share of
     /// its elastic forces, and more.
     pub fn release(&self, race: usize, energy: f64) -> Option<(Unloading, Moving)> {
-        let of = &self.0[0].as_ref()?.small.bed().contacts[race];
+        let of = &self.0[0].as_ref()?.small.bed.contacts[race];
         let (depth, _) = of.pressed(energy);
         let mut places = [None; MOST_AT_ONCE];
         let mut released = [Released::default(); MOST_AT_ONCE];
@@ -103,7 +104,7 @@ impl<'a> Facing<'a> {
         }
         let Inclination { cos, sin } = self.section.normal;
         let angle = ((defect.middle - self.race.centre) / self.race.r).asin();
-        let radius = small.bed().radius;
+        let radius = small.bed.radius;
         let at = [self.race.r * (angle - sin.atan2(cos)), radius * offset];
         let place = SmallPlace {
             at,

@@ -1,6 +1,30 @@
-//! Kinds of damage: their sizes, each given by its name.
+//! Kinds of damage: their sizes, each given by its name, their ranges and their forms.
 
+use std::borrow::Cow;
+
+use super::{About, Form, Kind};
+use crate::scene::numbers::{BoundedNumber, POSITIVE};
 use crate::scene::width::{Floor, Width};
+
+/// The width of what has the same along its length, as a number of it.
+fn one_width(width: f64) -> BoundedNumber {
+    Width::from(width).numbers()
+}
+
+/// Length of a patch \[m\].
+fn length(length: f64) -> BoundedNumber {
+    BoundedNumber::new("length", length, POSITIVE, "m")
+}
+
+/// Length of what is round without one \[m\].
+fn length_across(length: Option<f64>) -> BoundedNumber {
+    BoundedNumber::new("length", length, 0.0..=1.0, "m")
+}
+
+/// Radius of fault circles \[m\].
+fn edge_radius(radius: f64) -> BoundedNumber {
+    BoundedNumber::new("edge_radius", radius, POSITIVE, "m")
+}
 
 /// Damage in which the surface is absent over a length along the axis and a width along rolling; fault circles stand at its edges.
 ///
@@ -59,6 +83,29 @@ impl Patch {
     }
 }
 
+impl Kind for Patch {
+    fn about(&self) -> About<'_> {
+        About {
+            word: "patch",
+            form: Form::Slot {
+                length: self.length,
+                width: Cow::Borrowed(&self.width),
+                edge_radius: Some(self.edge_radius),
+                floor: self.floor.as_ref(),
+            },
+            numbers: vec![
+                length(self.length),
+                self.width.numbers(),
+                edge_radius(self.edge_radius),
+            ],
+        }
+    }
+
+    fn set_width(&mut self, to: f64) {
+        self.width = to.into();
+    }
+}
+
 /// Damage between steep walls. A contact carries load until half of it is over the wall. Fault circles with a radius of a quarter of
 /// the ball's diameter, further apart than `width` by the half-width of the most loaded contact that meets the defect at the
 /// equilibrium, unload contacts as boundary-element solutions do: a scene that is compiled has that [`Patch`] in its place, and
@@ -97,6 +144,25 @@ impl SteepPatch {
             floor: Some(floor),
             ..self
         }
+    }
+}
+
+impl Kind for SteepPatch {
+    fn about(&self) -> About<'_> {
+        About {
+            word: "patch",
+            form: Form::Slot {
+                length: self.length,
+                width: Cow::Owned(self.width.into()),
+                edge_radius: None,
+                floor: self.floor.as_ref(),
+            },
+            numbers: vec![length(self.length), one_width(self.width)],
+        }
+    }
+
+    fn set_width(&mut self, to: f64) {
+        self.width = to;
     }
 }
 
@@ -150,6 +216,24 @@ impl Cap {
     }
 }
 
+impl Kind for Cap {
+    fn about(&self) -> About<'_> {
+        About {
+            word: "cap",
+            form: Form::Circle {
+                width: self.width,
+                edge_radius: self.edge_radius,
+                floor: self.floor.as_ref(),
+            },
+            numbers: vec![edge_radius(self.edge_radius), one_width(self.width)],
+        }
+    }
+
+    fn set_width(&mut self, to: f64) {
+        self.width = to;
+    }
+}
+
 /// Damage smaller than its contact, a hole into which the surfaces bulge so that the contact loses part of its load: an ellipse so deep
 /// that nothing meets its floor, with sharp edges.
 ///
@@ -183,6 +267,25 @@ impl Pit {
             length: Some(length),
             ..self
         }
+    }
+}
+
+impl Kind for Pit {
+    fn about(&self) -> About<'_> {
+        About {
+            word: "pit",
+            form: Form::Recess {
+                width: self.width,
+                length: self.length,
+                depth: f64::INFINITY,
+                rim_height: None,
+            },
+            numbers: vec![length_across(self.length), one_width(self.width)],
+        }
+    }
+
+    fn set_width(&mut self, to: f64) {
+        self.width = to;
     }
 }
 
@@ -238,5 +341,29 @@ impl Dent {
     #[must_use]
     pub fn rim_height(self, rim_height: f64) -> Self {
         Self { rim_height, ..self }
+    }
+}
+
+impl Kind for Dent {
+    fn about(&self) -> About<'_> {
+        About {
+            word: "dent",
+            form: Form::Recess {
+                width: self.width,
+                length: self.length,
+                depth: self.depth,
+                rim_height: Some(self.rim_height),
+            },
+            numbers: vec![
+                length_across(self.length),
+                one_width(self.width),
+                BoundedNumber::new("depth", self.depth, 0.0..=1e-3, "m"),
+                BoundedNumber::new("rim_height", self.rim_height, 0.0..=1e-4, "m"),
+            ],
+        }
+    }
+
+    fn set_width(&mut self, to: f64) {
+        self.width = to;
     }
 }
