@@ -3,8 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::absent;
-use super::numbers::{BoundedNumber, POSITIVE, up_to};
-use super::ranges::{PartNumbers, UNSAID as X};
+use super::numbers::{BoundedNumber, POSITIVE, PartNumbers, UNSAID as X, up_to};
 
 /// Contact of a ball and a race: elastic law, slices, damping.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

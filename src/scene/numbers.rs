@@ -20,6 +20,12 @@ pub(super) const fn up_to(most: f64) -> NumberRange {
     (Bound::Excluded(0.0), Bound::Included(most))
 }
 
+/// A number of which the range alone is asked.
+pub(super) const UNSAID: f64 = f64::NAN;
+
+/// Numbers of a part by its name.
+pub(super) type PartNumbers = (&'static str, Vec<BoundedNumber>);
+
 /// A number of a part.
 pub(crate) struct BoundedNumber {
     /// Field of the part.

@@ -5,7 +5,7 @@ use std::ops::Bound;
 
 use serde_json::{Map, Value, json};
 
-use super::numbers::BoundedNumber;
+use super::numbers::{BoundedNumber, PartNumbers, UNSAID as X};
 use super::{
     CageLinks, CageRing, CoupledSupport, Defect, Drive, Floor, GothicArch, Load, Lubricant,
     Material, Mode, Mount, Pit, RaceProfile, Ring, RingName, Row, Scene, SlicesProbe, Solver,
@@ -48,18 +48,11 @@ fn keywords(number: &BoundedNumber) -> Value {
     }
 }
 
-/// Numbers of a part by its name.
-pub(super) type PartNumbers = (&'static str, Vec<BoundedNumber>);
-
 /// The numbers of every part that has any, whatever their values.
 fn parts() -> Vec<PartNumbers> {
     let all = [of_bearings(), contact::parts(), of_loads(), of_defects()];
     all.into_iter().flatten().collect()
 }
-
-/// A number of which the range alone is asked.
-pub(super) const UNSAID: f64 = f64::NAN;
-const X: f64 = UNSAID;
 
 fn of_bearings() -> Vec<PartNumbers> {
     let profile = RaceProfile::new(Vec::new(), Vec::new());

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::{About, Form, Kind};
+use super::{About, DamageKind, Form};
 use crate::scene::numbers::{BoundedNumber, POSITIVE};
 use crate::scene::width::{Floor, Width};
 
@@ -83,7 +83,7 @@ impl Patch {
     }
 }
 
-impl Kind for Patch {
+impl DamageKind for Patch {
     fn about(&self) -> About<'_> {
         About {
             word: "patch",
@@ -147,7 +147,7 @@ impl SteepPatch {
     }
 }
 
-impl Kind for SteepPatch {
+impl DamageKind for SteepPatch {
     fn about(&self) -> About<'_> {
         About {
             word: "patch",
@@ -216,7 +216,7 @@ impl Cap {
     }
 }
 
-impl Kind for Cap {
+impl DamageKind for Cap {
     fn about(&self) -> About<'_> {
         About {
             word: "cap",
@@ -270,7 +270,7 @@ impl Pit {
     }
 }
 
-impl Kind for Pit {
+impl DamageKind for Pit {
     fn about(&self) -> About<'_> {
         About {
             word: "pit",
@@ -344,7 +344,7 @@ impl Dent {
     }
 }
 
-impl Kind for Dent {
+impl DamageKind for Dent {
     fn about(&self) -> About<'_> {
         About {
             word: "dent",

@@ -10,8 +10,7 @@ use std::borrow::Cow;
 use serde::{Deserialize, Serialize};
 
 use super::absent;
-use super::numbers::BoundedNumber;
-use super::ranges::{PartNumbers, UNSAID};
+use super::numbers::{BoundedNumber, PartNumbers, UNSAID};
 use super::surface::{AxialOffset, Surface};
 use super::width::{Floor, Width};
 
@@ -37,7 +36,7 @@ pub enum Damage {
 pub const RIM: f64 = 1.5;
 
 /// A kind of damage: all that the rest of a scene asks of it.
-trait Kind {
+trait DamageKind {
     /// Description of it.
     fn about(&self) -> About<'_>;
 
@@ -90,13 +89,13 @@ macro_rules! kinds {
         })*
 
         impl Damage {
-            fn kind(&self) -> &dyn Kind {
+            fn kind(&self) -> &dyn DamageKind {
                 match self {
                     $(Self::$kind(of) => of,)*
                 }
             }
 
-            fn kind_mut(&mut self) -> &mut dyn Kind {
+            fn kind_mut(&mut self) -> &mut dyn DamageKind {
                 match self {
                     $(Self::$kind(of) => of,)*
                 }

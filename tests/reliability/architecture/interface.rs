@@ -33,7 +33,11 @@ fn shown(path: &str, sources: &[Source], found: &mut BTreeSet<String>) {
     };
     let folder = path.trim_end_matches("mod.rs").trim_end_matches("lib.rs");
     for item in items(&code(text)).iter().filter(|item| is_public(item)) {
-        if let Some(path) = after(item, "use ") {
+        let brings = after(item, "use ");
+        let all_of = brings
+            .and_then(|path| path.split_once("::*"))
+            .map(|of| of.0);
+        if let Some(path) = brings.filter(|_| all_of.is_none()) {
             found.extend(brought(path).map(str::to_owned));
         }
         found.extend(
@@ -42,7 +46,7 @@ fn shown(path: &str, sources: &[Source], found: &mut BTreeSet<String>) {
                 .filter_map(|kind| public_name(item, kind))
                 .map(str::to_owned),
         );
-        if let Some(module) = after(item, "mod ").map(word) {
+        if let Some(module) = all_of.or(after(item, "mod ").map(word)) {
             shown(&format!("{folder}{module}/mod.rs"), sources, found);
             shown(&format!("{folder}{module}.rs"), sources, found);
         }
