@@ -29,7 +29,7 @@ pub struct ContactSummary {
 
 impl ContactSummary {
     /// Value of a quantity.
-    pub(crate) fn get(&self, quantity: ContactQuantity) -> f64 {
+    pub fn get(&self, quantity: ContactQuantity) -> f64 {
         match quantity {
             ContactQuantity::Load => self.load,
             ContactQuantity::Angle => self.angle,

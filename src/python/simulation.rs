@@ -14,15 +14,12 @@ use super::errors::OrRaise;
 use super::forces::{Passed, Raised};
 use super::run::{hand_over, state_of};
 use ballrace::inspect::ContactSummary;
-use ballrace::scene::{RingForces, RingName};
+use ballrace::scene::{ContactQuantity, RingForces, RingName};
 use ballrace::{Error, Result, Run, Scene, Snapshot, Start};
 
 /// A run that goes on, none after its end; and what its forces by code raised.
 #[pyclass(frozen, module = "ballrace._core", name = "Simulation")]
 pub(super) struct GoingRun(Arc<Mutex<Option<ballrace::Simulation>>>, Raised);
-
-/// A number of a contact.
-type Quantity = fn(&ContactSummary) -> f64;
 
 #[pymethods]
 impl GoingRun {
@@ -95,16 +92,11 @@ impl GoingRun {
     /// Quantities of all contacts, each as (balls, 2).
     fn contacts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let found = self.with(py, |simulation| Ok(simulation.contacts()))?;
-        let quantities: [(&str, Quantity); 5] = [
-            ("load", |of| of.load),
-            ("angle", |of| of.angle),
-            ("zone_centre", |of| of.zone_centre),
-            ("zone_width", |of| of.zone_width),
-            ("slip", |of| of.slip),
-        ];
         let contacts = PyDict::new(py);
-        for (name, quantity) in quantities {
-            let values: Vec<f64> = found.iter().flatten().map(quantity).collect();
+        for quantity in ContactQuantity::ALL {
+            let of = |contact: &ContactSummary| contact.get(quantity);
+            let values: Vec<f64> = found.iter().flatten().map(of).collect();
+            let (name, _) = quantity.label();
             contacts.set_item(name, values.into_pyarray(py).reshape([found.len(), 2])?)?;
         }
         Ok(contacts)

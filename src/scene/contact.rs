@@ -137,6 +137,14 @@ impl NormalLaw {
         }
     }
 
+    /// Whether elements lie along the common tangent, beyond which the law knows no end of a groove.
+    pub(super) fn is_flat(&self) -> bool {
+        match self {
+            Self::Iso16281 { .. } => false,
+            Self::Hertz => true,
+        }
+    }
+
     /// Name of the law in a document, and its numbers.
     pub(super) fn numbers(&self) -> (&'static str, Vec<BoundedNumber>) {
         match *self {

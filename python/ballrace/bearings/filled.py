@@ -18,17 +18,15 @@ from ..scene import (
     Load,
     Lubricant,
     MotionProbe,
-    Patch,
     Ring,
     Row,
     Scene,
     SeatProbe,
     SpeedDrive,
     SqueezeFilm,
-    SteepPatch,
     StructureProbe,
 )
-from ..scene.defect import named_by_shape
+from ..scene.defect import ALONG_AXIS, named_by_shape
 from ..scene.lubricant import chosen
 
 if TYPE_CHECKING:
@@ -132,7 +130,7 @@ def with_spin(scene: Scene) -> Scene:
     """
     on_balls = [d for d in scene.defects.values() if d.on == "ball"]
     rough = any(row.texture is not None and row.texture.ball > 0.0 for row in scene.rows)
-    held = any(rough or isinstance(d, Patch | SteepPatch) for d in on_balls)
+    held = any(rough or isinstance(d, ALONG_AXIS) for d in on_balls)
     spin: Spin | None = None if held or not _parts(scene) else "free"
     return scene if scene.spin == spin else replace(scene, spin=spin).validate()
 

@@ -264,6 +264,10 @@ class Dent(Defect):
     rim_height: float = 0.0
 
 
+ALONG_AXIS = (Patch, SteepPatch)
+"""Kinds with their length along the ring's axis, which a ball that has one must keep."""
+
+
 def named_by_shape(defect: Defect) -> str:
     """Return the name of a defect that is alone and has none: that of its shape, of a patch ``"spall"``."""
     return defect.shape or "spall"

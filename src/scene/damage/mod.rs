@@ -1,7 +1,7 @@
 //! Damage of a surface: kinds with their numbers, each of which has one of few forms; and the flat document that a defect is.
 //!
 //! A kind is what a user says, its [`Form`] what contacts meet: `contact/damage/` compiles forms. A new kind of a form that is there is a
-//! struct in `kinds` and a variant here: the compiler asks for the rest.
+//! struct in `kinds` and a variant here, with its words and fields in a document: the compiler asks for these.
 
 mod kinds;
 
@@ -365,33 +365,79 @@ impl DefectDocument {
         axial_offset: AxialOffset,
         damage: &Damage,
     ) -> Self {
-        let (shape, walls) = match damage {
-            Damage::Patch(_) => (None, None),
-            Damage::SteepPatch(_) => (None, Some(WallsWord::Steep)),
-            Damage::Cap(_) => (Some(ShapeWord::Cap), None),
-            Damage::Pit(_) => (Some(ShapeWord::Pit), None),
-            Damage::Dent(_) => (Some(ShapeWord::Dent), None),
-        };
-        let (depth, rim_height) = match damage {
-            Damage::Dent(of) => (Some(of.depth), Some(of.rim_height)),
-            Damage::Patch(_) | Damage::SteepPatch(_) | Damage::Cap(_) | Damage::Pit(_) => {
-                (None, None)
-            }
-        };
-        Self {
+        let bare = Self {
             on,
             row,
             ball,
             angle,
             axial_offset,
-            shape,
-            length: damage.length().unwrap_or(0.0),
+            shape: None,
+            length: 0.0,
             width: damage.width_along().into_owned(),
-            edge_radius: damage.edge_radius().unwrap_or(0.0),
-            walls,
-            floor: damage.floor().cloned(),
-            depth,
-            rim_height,
+            edge_radius: 0.0,
+            walls: None,
+            floor: None,
+            depth: None,
+            rim_height: None,
+        };
+        // What `damage` reads of each kind, and nothing else.
+        match damage {
+            Damage::Patch(of) => Self {
+                length: of.length,
+                edge_radius: of.edge_radius,
+                floor: of.floor.clone(),
+                ..bare
+            },
+            Damage::SteepPatch(of) => Self {
+                walls: Some(WallsWord::Steep),
+                length: of.length,
+                floor: of.floor.clone(),
+                ..bare
+            },
+            Damage::Cap(of) => Self {
+                shape: Some(ShapeWord::Cap),
+                edge_radius: of.edge_radius,
+                floor: of.floor.clone(),
+                ..bare
+            },
+            Damage::Pit(of) => Self {
+                shape: Some(ShapeWord::Pit),
+                length: of.length.unwrap_or(0.0),
+                ..bare
+            },
+            Damage::Dent(of) => Self {
+                shape: Some(ShapeWord::Dent),
+                length: of.length.unwrap_or(0.0),
+                depth: Some(of.depth),
+                rim_height: Some(of.rim_height),
+                ..bare
+            },
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Analytic: a document says of every kind all that there is.
+    #[test]
+    fn every_kind_is_what_its_document_says() {
+        let all: [Damage; 5] = [
+            Patch::of_width(1e-3).length(2e-3).edge_radius(3e-4).into(),
+            SteepPatch::of_width(1e-3)
+                .length(2e-3)
+                .floor(Floor::new(1e-5, 3))
+                .into(),
+            Cap::of_width(1e-3).edge_radius(3e-4).into(),
+            Pit::of_width(1e-4).length(2e-4).into(),
+            Dent::of_width(1e-4).depth(8e-6).rim_height(3e-7).into(),
+        ];
+        assert_eq!(all.len(), parts().len(), "a kind is not here");
+        for damage in all {
+            let written =
+                DefectDocument::new(Surface::Ball, 0, None, 0.0, AxialOffset::Contact, &damage);
+            assert_eq!(written.damage(), Ok(damage));
         }
     }
 }

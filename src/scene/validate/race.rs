@@ -4,7 +4,7 @@ use super::check::{numbers, within};
 use crate::base::error::{Error, Result};
 use crate::base::quantities;
 use crate::scene::numbers::up_to;
-use crate::scene::{Contact, GothicArch, NormalLaw, RaceProfile, Row};
+use crate::scene::{Contact, GothicArch, RaceProfile, Row};
 
 /// Fewest and most points of a profile.
 const POINTS: (usize, usize) = (4, 10_000);
@@ -64,7 +64,7 @@ fn race(path: &str, row: &Row, contact: &Contact, of: &RaceFields<'_>) -> Result
         let allowed = format!("absent without {}", at("shoulders"));
         return Err(Error::scene(path, edge, allowed));
     }
-    if contact.law == NormalLaw::Hertz {
+    if contact.law.is_flat() {
         let allowed = "absent with Hertz's law, which does not include the end of a groove; contact.law = iso16281 does";
         return Err(Error::scene(path, edge, allowed));
     }
