@@ -2,8 +2,9 @@
 
     python benches/verdict_gates.py [--runs FOLDER] [--count N] [-o TABLE]
 
-takes a record of each of the first runs of ``verdict_library.py``, judged with its unit, and the records of
-``verdict_measured.py``, judged with a unit where one is known. Each record is examined once. A line is a condition
+takes a record of each of the first runs of ``verdict_library.py``, judged with its unit by a fit to the other
+bearings, and the records of ``verdict_measured.py``, judged with a unit where one is known by the fit that is
+shipped. Each record is examined once. A line is a condition
 that is left out, with what then changes of five counts: healthy records called damaged, and healthy; damaged
 records whose damage is named, where a sound part is named, and that are called healthy.
 """
@@ -28,8 +29,10 @@ from unittest import mock
 import ballrace as br
 import verdict_library
 import verdict_measured
-from ballrace.diagnosis import procedure, strength, verdict
+from ballrace.diagnosis import likelihood, procedure, strength, verdict
+from ballrace.diagnosis.null import ACCUSED
 from verdict_cases import case
+from verdict_fit import regression
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
@@ -116,11 +119,27 @@ def kept(
 
 
 def simulated(number: int, folder: Path) -> Judged | None:
-    """Return what the verdict on the first record of a run of the library is decided from."""
+    """Return what the verdict on the first record of a run of the library rests on; None of one that fails."""
     warnings.simplefilter("ignore")
     of = case(number)
-    record = verdict_library.recorded(of, verdict_library.run(of, folder), 0).channel
-    return kept("simulated", of.parts, record, verdict_library.promised(of), of.rpm)
+    try:
+        x = verdict_library.run(of, folder)
+    except br.BallraceError:
+        return None
+    record = verdict_library.recorded(of, x, 0).channel
+    others = {"ratio": ratios_without(of.bearing.designation)}
+    with mock.patch.object(likelihood, "fit", return_value=others):
+        return kept("simulated", of.parts, record, verdict_library.promised(of), of.rpm)
+
+
+def ratios_without(bearing: str) -> dict[str, Any]:
+    """Return the regressions of all parts over the library without a bearing."""
+    return {
+        part: {
+            "sized": regression(part, True, bearing), "unsized": regression(part, False, bearing)
+        }
+        for part in ACCUSED
+    }  # fmt: skip
 
 
 def measured(of: verdict_measured.Record) -> Judged | None:

@@ -41,7 +41,7 @@ def at_any_size(acceleration: float, diameter: float, rate: float) -> float:
     h·k/m. Of bearings that differ in size alone, pressed alike, k goes with the pitch diameter D (Hertz) and m
     with its cube: waves of the same height, as grinding leaves them, cause accelerations as 1/D². Impacts of
     spalls that are the same part of a ball wide go as 1/D. Among the records of the library, with noise of motors
-    and at the ends of paths, it is D to the power −1.4 without damage, −1.3 with a damaged outer race. Over the
+    and at the ends of paths, it is D to the power −1.6 without damage, −1.4 with a damaged outer race. Over the
     speed v of the pitch circle, as both grow, it is a·D²/v.
 
     Parameters
