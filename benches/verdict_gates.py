@@ -3,10 +3,10 @@
     python benches/verdict_gates.py [--runs FOLDER] [--count N] [-o TABLE]
 
 takes a record of each of the first runs of ``verdict_library.py``, judged with its unit by a fit to the other
-bearings, and the records of ``verdict_measured.py``, judged with a unit where one is known by the fit that is
-shipped. Each record is examined once. A line is a condition
-that is left out, with what then changes of five counts: healthy records called damaged, and healthy; damaged
-records whose damage is named, where a sound part is named, and that are called healthy.
+bearings, and the records of ``verdict_measured.py``, judged by the fit that is shipped, with a unit where one is
+known. Each record is examined once. A line is a condition that is left out, with what then changes of five counts:
+healthy records called damaged, and healthy; damaged records whose damage is named, where a sound part is named,
+and that are called healthy.
 """
 
 from __future__ import annotations

@@ -137,7 +137,7 @@ impl NormalLaw {
         }
     }
 
-    /// Whether elements lie along the common tangent, beyond which the law knows no end of a groove.
+    /// Whether the law's elements lie along the common tangent; such a law does not include the end of a groove.
     pub(super) fn is_flat(&self) -> bool {
         match self {
             Self::Iso16281 { .. } => false,

@@ -1,8 +1,8 @@
 //! Recesses smaller than their contact: pits, so deep that nothing meets their floor, and dents with a raised rim, as a hard particle leaves
 //! them between ball and race, a hole of some depth, and around it what was pushed out.
 //!
-//! What a pit releases is in `hole`. The energy of a contact over a dent is U = U₀ e^{−V_d/U₀} + R. The surfaces bulge into the recess as into a pit, as long as they do
-//! not meet its floor; it is half an ellipsoid, so that
+//! What a pit releases is in `hole`. The energy of a contact over a dent is U = U₀ e^{−V_d/U₀} + R. The surfaces bulge into the recess
+//! as into a pit, as long as they do not meet its floor; it is half an ellipsoid, so that
 //!
 //! ```text
 //! V_d = V                     V ≤ V_s,     V_s = π c_x c_y d² E* Ê/(6 c_m)

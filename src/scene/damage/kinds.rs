@@ -6,7 +6,7 @@ use super::{About, DamageKind, Form};
 use crate::scene::numbers::{BoundedNumber, POSITIVE};
 use crate::scene::width::{Floor, Width};
 
-/// The width of what has the same along its length, as a number of it.
+/// Width that is the same along the length \[m\].
 fn one_width(width: f64) -> BoundedNumber {
     Width::from(width).numbers()
 }

@@ -122,7 +122,7 @@ impl Damage {
         self.width_along().largest()
     }
 
-    /// How it acts on contacts.
+    /// Form of the damage, by which it acts on contacts.
     pub(crate) fn form(&self) -> Form<'_> {
         self.kind().about().form
     }
