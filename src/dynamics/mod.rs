@@ -5,6 +5,8 @@ mod batch;
 mod contributions;
 mod evaluation;
 mod films;
+#[cfg(test)]
+mod forces_tests;
 mod kept;
 #[cfg(test)]
 mod lost;
