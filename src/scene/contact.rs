@@ -121,6 +121,11 @@ fn iso_length_ratio() -> f64 {
 }
 
 impl NormalLaw {
+    /// Every law, with its usual constants.
+    pub fn all() -> [Self; 2] {
+        [Self::iso16281(), Self::Hertz]
+    }
+
     /// The paper's law with the paper's constants.
     pub fn iso16281() -> Self {
         Self::Iso16281 {
@@ -138,10 +143,18 @@ impl NormalLaw {
     }
 
     /// Whether the law's elements lie along the common tangent; such a law does not include the end of a groove.
-    pub(super) fn is_flat(&self) -> bool {
+    pub(crate) fn is_flat(&self) -> bool {
         match self {
             Self::Iso16281 { .. } => false,
             Self::Hertz => true,
+        }
+    }
+
+    /// Whether the law has a stiffness of its own, and that of steel, whatever the moduli of the materials.
+    pub(super) fn is_of_steel(&self) -> bool {
+        match self {
+            Self::Iso16281 { .. } => *self == Self::iso16281(),
+            Self::Hertz => false,
         }
     }
 
@@ -333,4 +346,20 @@ pub(super) fn parts() -> Vec<PartNumbers> {
         ("Stribeck", friction(stribeck)),
         ("Traction", friction(traction)),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Truth: the words that a document may have, as a refused one lists them.
+    #[test]
+    fn all_laws_are_every_law() {
+        let refused = serde_json::from_str::<NormalLaw>("\"none\"").unwrap_err();
+        let refused = refused.to_string();
+        let words: Vec<&str> = refused.split('`').skip(3).step_by(2).collect();
+        let all = NormalLaw::all();
+        let names: Vec<&str> = all.iter().map(|law| law.numbers().0).collect();
+        assert_eq!(names, words, "{refused}");
+    }
 }

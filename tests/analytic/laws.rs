@@ -99,10 +99,11 @@ fn rigid_rotation_slips_nowhere() {
 /// and to the tolerance for the Hertz law on fitted nodes.
 #[test]
 fn energy_is_kept_without_damping_and_friction() {
-    for (law, slices, bound) in [
-        (NormalLaw::Hertz, Slices::Fitted(6), 1e-5),
-        (NormalLaw::iso16281(), Slices::Fixed(400), 1e-3),
-    ] {
+    for law in NormalLaw::all() {
+        let (slices, bound) = match law {
+            NormalLaw::Hertz => (Slices::Fitted(6), 1e-5),
+            _ => (Slices::Fixed(400), 1e-3),
+        };
         let mut scene = healthy();
         scene.contact.law = law;
         scene.contact.slices = slices;
@@ -220,7 +221,7 @@ fn force_at(model: &Model, y: &[f64], angle: f64, spin: f64) -> ([f64; 4], [f64;
 /// healthy force comes back.
 #[test]
 fn edges_do_not_jump_and_narrow_defects_vanish() {
-    for law in [NormalLaw::iso16281(), NormalLaw::Hertz] {
+    for law in NormalLaw::all() {
         for on in [Surface::OuterRace, Surface::InnerRace, Surface::Ball] {
             for width in [1e-7, 1e-5, 0.3e-3, 1.5e-3] {
                 let mut scene = healthy();

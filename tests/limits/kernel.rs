@@ -87,7 +87,7 @@ fn difference_around(model: &Model, calm: &[f64]) -> f64 {
 
 fn scenes() -> Vec<(String, Scene)> {
     let mut scenes = Vec::new();
-    for law in [NormalLaw::iso16281(), NormalLaw::Hertz] {
+    for law in NormalLaw::all() {
         for slices in [Slices::Fitted(5), Slices::Fitted(6), Slices::Fixed(70)] {
             let mut scene = presets::wheel_bearing(3000.0);
             scene.contact.law = law.clone();
@@ -97,7 +97,7 @@ fn scenes() -> Vec<(String, Scene)> {
     }
     let wheel = || presets::wheel_bearing(3000.0);
     for slices in [Slices::Fitted(6), Slices::Fixed(70)] {
-        for law in [NormalLaw::iso16281(), NormalLaw::Hertz] {
+        for law in NormalLaw::all() {
             let mut scene = through_points(&wheel(), 200);
             (scene.contact.law, scene.contact.slices) = (law, slices);
             scenes.push((format!("points, {slices:?}"), scene));
@@ -197,7 +197,7 @@ fn textured() -> Texture {
 /// Contacts in oil: tori under both laws, on nodes and slices, defects, arches, and rows in oils of their own.
 fn in_oil() -> Vec<(String, Scene)> {
     let mut scenes = Vec::new();
-    for law in [NormalLaw::iso16281(), NormalLaw::Hertz] {
+    for law in NormalLaw::all() {
         for slices in [Slices::Fitted(6), Slices::Fixed(70)] {
             let mut scene = oiled(presets::wheel_bearing(3000.0));
             (scene.contact.law, scene.contact.slices) = (law.clone(), slices);

@@ -148,7 +148,7 @@ fn no_friction_law_gives_energy() {
         },
     ];
     for law in laws {
-        for normal in [NormalLaw::iso16281(), NormalLaw::Hertz] {
+        for normal in NormalLaw::all() {
             let mut scene = presets::wheel_bearing(3000.0);
             (scene.friction, scene.contact.law) = (law.clone(), normal);
             let model = compile(&scene).unwrap();

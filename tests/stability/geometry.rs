@@ -97,7 +97,7 @@ fn bearing(name: &str, radial: f64, axial: f64) -> Scene {
 #[test]
 fn zero_and_negative_clearance() {
     for clearance in [0.0, 1e-9, -1e-6, -20e-6] {
-        for law in [NormalLaw::iso16281(), NormalLaw::Hertz] {
+        for law in NormalLaw::all() {
             let mut scene = bearing(&format!("clearance {clearance:e}"), 500.0, 0.0);
             scene.rows[0].clearance = clearance;
             scene.contact.law = law;
@@ -193,7 +193,7 @@ fn a_contact_over_the_shoulder_is_cut_counted_and_warned_of() {
 /// Truth: force balance; 0.5 itself is refused.
 #[test]
 fn conformity_close_to_one_half() {
-    for law in [NormalLaw::iso16281(), NormalLaw::Hertz] {
+    for law in NormalLaw::all() {
         for conformity in [0.51, 0.501, 0.5001] {
             let mut scene = bearing(&format!("conformity {conformity}"), 500.0, 0.0);
             scene.contact.law = law.clone();

@@ -5,6 +5,7 @@ use nalgebra::{Rotation3, Vector3};
 use super::gradient_tests::{RADIUS, pair};
 use crate::contact::damage::{Bed, PittedContact};
 use crate::contact::hertz::Hertz;
+use crate::contact::laws::elastic::tests::laws;
 use crate::contact::{
     BallSide, ContactForce, Damping, Motion, Pair, PointForce, Sink, SurfaceDefect, Torus,
     Traction, V2, Wrench, ZoneSlices,
@@ -112,15 +113,17 @@ impl Pressed {
     }
 }
 
-/// Both laws, both races, with and without waves.
+/// All laws, both races, with and without waves.
 fn pairs() -> impl Iterator<Item = (Pair, String)> {
-    [true, false].into_iter().flat_map(|hertz| {
-        [1.0, -1.0].into_iter().flat_map(move |sigma| {
-            [0, 30].into_iter().map(move |waves| {
-                let name = format!("Hertz {hertz}, race {sigma}, waves {waves}");
-                (pair(sigma, hertz, None, waves), name)
+    [1.0, -1.0].into_iter().flat_map(|sigma| {
+        laws(sigma, 2.0 * RADIUS)
+            .into_iter()
+            .flat_map(move |elastic| {
+                [0, 30].into_iter().map(move |waves| {
+                    let name = format!("{}, race {sigma}, waves {waves}", elastic.name());
+                    (pair(sigma, elastic, None, waves), name)
+                })
             })
-        })
     })
 }
 

@@ -1,16 +1,9 @@
-use super::super::hertz::Hertz;
-use super::super::iso16281::Iso16281;
-use super::super::{Elastic, Law, Shape, Torus, Waves};
+use super::super::laws::elastic::tests::laws;
+use super::super::{Cut, Elastic, Law, Shape, Torus, Waves};
 use super::*;
-use crate::scene::{Material, Waviness};
+use crate::scene::Waviness;
 
-fn pair(sigma: f64, hertz: bool, slices: ZoneSlices, waves: Waves) -> Pair {
-    let steel = Material::default();
-    let elastic = if hertz {
-        Elastic::Hertz(Hertz::new(sigma, 12e-3, 60e-3, 0.52, 0.3, &steel, &steel))
-    } else {
-        Elastic::Iso16281(Iso16281::new(3.5948e10, 0.5, 12e-3))
-    };
+fn pair(sigma: f64, elastic: Elastic, slices: ZoneSlices, waves: Waves) -> Pair {
     Pair {
         race: Torus {
             sigma,
@@ -43,13 +36,13 @@ fn agrees_with_the_slices() {
     // bends its own force like s^{1/9}.
     let mut worst = [0.0_f64; 3];
     for sigma in [1.0, -1.0] {
-        for (hertz, slices) in [
-            (false, ZoneSlices::Fitted(Rules::new(6, 10.0 / 9.0))),
-            (false, ZoneSlices::Fixed(200)),
-            (true, ZoneSlices::Fitted(Rules::new(6, 1.0))),
-        ] {
+        let both = |elastic: Elastic| {
+            let fitted = ZoneSlices::Fitted(Rules::new(6, elastic.exponent()));
+            [fitted, ZoneSlices::Fixed(200)].map(|slices| (elastic, slices))
+        };
+        for (elastic, slices) in laws(sigma, 12e-3).into_iter().flat_map(both) {
             for waves in [Waves::default(), wavy()] {
-                let pair = pair(sigma, hertz, slices.clone(), waves);
+                let pair = pair(sigma, elastic, slices.clone(), waves);
                 for (tilt, direction) in [(0.0, 0.3), (0.4, -2.0), (-0.7, 1.1)] {
                     let l = 6.24e-3 - ball.radius + 15e-6;
                     let d = pair.race.a + sigma * l * f64::cos(tilt);
@@ -81,9 +74,15 @@ fn agrees_with_the_slices() {
 /// Truth: the kernel, differentiated by itself.
 #[test]
 fn the_form_by_hand_is_the_kernels() {
-    let slices = ZoneSlices::Fitted(Rules::new(6, 10.0 / 9.0));
-    for sigma in [1.0, -1.0] {
-        let pair = pair(sigma, false, slices.clone(), Waves::default());
+    let on_surface = |elastic: &Elastic| elastic.cut() == Cut::BallSurface;
+    let pairs = [1.0, -1.0].into_iter().flat_map(|sigma| {
+        let laws = laws(sigma, 12e-3).into_iter().filter(on_surface);
+        laws.map(move |elastic| {
+            let slices = ZoneSlices::Fitted(Rules::new(6, elastic.exponent()));
+            pair(sigma, elastic, slices, Waves::default())
+        })
+    });
+    for pair in pairs {
         for (tilt, approach) in [(0.0, 15e-6), (0.4, 2e-6), (-0.7, 40e-6)] {
             let l = 6.24e-3 - 6e-3 + approach;
             let (sin, cos) = f64::sin_cos(tilt);

@@ -292,9 +292,7 @@ impl DefectDocument {
                     floor: self.floor.clone(),
                 }))
             }
-            (Some(_), Some(WallsWord::Steep)) => {
-                Err(("walls", "absent for a cap, a pit or a dent"))
-            }
+            (Some(_), Some(WallsWord::Steep)) => Err(("walls", "absent where a shape is given")),
             (Some(ShapeWord::Cap), None) => {
                 if self.length != 0.0 {
                     let allowed = "absent for a cap, which is as long as it is wide";

@@ -2,7 +2,7 @@
 
 use super::{Doubt, millimetres};
 use crate::base::quantities::number;
-use crate::scene::{Load, Material, Mount, NormalLaw, Ring, RingName, Row, Scene, Spin, Surface};
+use crate::scene::{Load, Material, Mount, Ring, RingName, Row, Scene, Spin, Surface};
 
 /// A moment \[N m\] that counts as none.
 const NO_MOMENT: f64 = 1e-9;
@@ -169,7 +169,6 @@ fn thrust(scene: &Scene, found: &mut Vec<Doubt>) {
 
 /// Moduli that the law in slices does not include.
 fn moduli(scene: &Scene, found: &mut Vec<Doubt>) {
-    let paper = NormalLaw::iso16281();
     let steel = Material::default().youngs_modulus;
     let mut check = |path: String, material: &Material| {
         if (material.youngs_modulus / steel - 1.0).abs() > MODULUS {
@@ -179,7 +178,7 @@ fn moduli(scene: &Scene, found: &mut Vec<Doubt>) {
             found.push(Doubt::new(format!("{path}.youngs_modulus"), value, usual));
         }
     };
-    let follows = |row: &Row| scene.contact_of(row).law == paper;
+    let follows = |row: &Row| scene.contact_of(row).law.is_of_steel();
     if scene.rows.iter().any(follows) {
         check("materials.rings".to_owned(), &scene.materials.rings);
     }

@@ -43,8 +43,11 @@ fn surface(scene: &Scene, path: &str, row: &Row, defect: &Defect) -> Result<()> 
     match (defect.on, defect.ball) {
         (Surface::Ball, Some(ball)) if ball < row.ball_count => {
             if scene.balls_turn() && defect.damage.is_patch() {
-                let allowed = r#""cap", "pit" or "dent" for a ball that spins freely: a patch has its length along the axis"#;
-                Err(Error::scene(at("shape"), "absent", allowed))
+                let word = defect.damage.word();
+                let allowed = format!(
+                    r#"one that has no length along the axis on a ball that spins freely, such as "cap", "pit" or "dent"; a {word} has"#
+                );
+                Err(Error::scene(at("shape"), format!("{word:?}"), allowed))
             } else if defect.damage.is_of_balls() {
                 cap(path, row, defect)
             } else {

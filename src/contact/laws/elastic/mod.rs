@@ -132,3 +132,61 @@ impl Elastic {
         per_length * length
     }
 }
+
+#[cfg(test)]
+pub(in crate::contact) mod tests {
+    use super::*;
+    use crate::scene::Material;
+
+    /// Every law, for balls of a diameter on the inner (σ = −1) or the outer race (σ = 1) of 60 mm \[m\].
+    pub(in crate::contact) fn laws(sigma: f64, diameter: f64) -> Vec<Elastic> {
+        let steel = Material::default();
+        let hertz = Hertz::new(sigma, diameter, 60e-3, 0.52, 0.3, &steel, &steel);
+        let laws = NormalLaw::all();
+        laws.iter()
+            .map(|law| Elastic::new(law, diameter, hertz))
+            .collect()
+    }
+
+    /// Truth: what loops are compiled for. A scene, its contacts and their loops say the same of where elements lie.
+    #[test]
+    fn elements_lie_where_a_law_says() {
+        struct Flat<'a>(&'a mut bool);
+        impl ForLaw for Flat<'_> {
+            fn run<L: ElasticLaw>(self) {
+                *self.0 = L::FLAT;
+            }
+        }
+        for (law, elastic) in NormalLaw::all().iter().zip(laws(1.0, 12e-3)) {
+            let mut flat = !law.is_flat();
+            elastic.choose(Flat(&mut flat));
+            let by_cut = matches!(elastic.cut(), Cut::CommonTangent { .. });
+            assert_eq!([law.is_flat(), by_cut], [flat; 2], "{law:?}");
+        }
+    }
+
+    /// Truth: the law's own energy, force and exponent, and Hertz's approach under a load, differentiated numerically.
+    #[test]
+    fn a_law_agrees_with_itself() {
+        for elastic in laws(-1.0, 12e-3) {
+            let (depth, step, length) = (8e-6, 1e-10, 1e-3);
+            let energy = |s: f64| elastic.energy(s, length);
+            let slope = (energy(depth + step) - energy(depth - step)) / (2.0 * step);
+            let force = elastic.force(depth, length);
+            assert!(
+                (slope / force - 1.0).abs() < 1e-6,
+                "{}: energy",
+                elastic.name()
+            );
+            let doubled = elastic.force(2.0 * depth, length) / force;
+            let power = elastic.exponent();
+            let is_as_said = (doubled.log2() / power - 1.0).abs() < 1e-9;
+            assert!(
+                is_as_said,
+                "{}: {} for {power}",
+                elastic.name(),
+                doubled.log2()
+            );
+        }
+    }
+}
