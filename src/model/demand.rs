@@ -2,8 +2,7 @@
 
 use crate::base::error::Result;
 use crate::base::memory;
-use crate::model::GivenMotions;
-use crate::scene::{Defect, Drive, Probe, Profile, Row, Scene, TimeFunction, Waviness, Width};
+use crate::scene::{Defect, Probe, Profile, Row, Scene, TimeFunction, Waviness, Width};
 
 /// Copies of a scene's lists that are held at once: the document, the scene as placed, frozen to settle and
 /// handed over. Measured with tables of 10⁶ points: 9.
@@ -44,10 +43,7 @@ fn bytes(scene: &Scene) -> f64 {
 
 /// Numbers in the lists of a scene, whose lengths have no limit.
 fn numbers(scene: &Scene) -> usize {
-    let (Drive::Speed(drive) | Drive::Torque { value: drive, .. }) = &scene.drive;
-    let moments = scene.moments.values();
-    let moments = moments.map(|moment| in_time(&moment.moment));
-    let loads = scene.loads.values().map(|load| in_time(&load.force));
+    let values = scene.values_in_time().into_iter().map(in_time);
     let widths = scene.defects.values().map(|of| of.damage.width_along());
     let defects = widths.map(|width| match width.as_ref() {
         Width::Constant(_) => 1,
@@ -61,19 +57,7 @@ fn numbers(scene: &Scene) -> usize {
         let waves = row.outer_waviness.len() + row.inner_waviness.len();
         waves * size_of::<Waviness>() / size_of::<f64>() + row.diameter_errors.len()
     });
-    let given = [&scene.outer_ring, &scene.inner_ring].map(|ring| {
-        let given = GivenMotions::new(ring);
-        given.all().map(|(_, motion)| in_time(motion)).sum()
-    });
-    in_time(drive)
-        + scene.outer_speed.as_ref().map_or(0, in_time)
-        + loads
-            .chain(moments)
-            .chain(given)
-            .chain(defects)
-            .chain(probes)
-            .chain(rows)
-            .sum::<usize>()
+    values.chain(defects).chain(probes).chain(rows).sum()
 }
 
 fn in_time(value: &TimeFunction) -> usize {
@@ -89,6 +73,7 @@ mod tests {
     use super::*;
     use crate::Error;
     use crate::model::compile_placed;
+    use crate::scene::Drive;
     use crate::scene::presets;
 
     #[test]

@@ -37,7 +37,6 @@ pub use body::{Body, Degree};
 pub(crate) use cage::{CageModel, Carried, CentringSpring, Land};
 pub(crate) use compile::compile_placed;
 pub use dof::{DOFS, Dof};
-pub(crate) use given::GivenMotions;
 pub(crate) use layout::RINGS;
 pub use layout::{BodyId, BodyKind, Layout, Race};
 pub(crate) use loads::{LoadModel, MomentModel};

@@ -6,7 +6,7 @@ use crate::dynamics::Dynamics;
 use crate::forces::damping;
 use crate::integrate::{Options, Tolerance};
 use crate::model::{DOFS, Model};
-use crate::scene::{Drive, Method};
+use crate::scene::Method;
 
 /// Largest steps between corners of a table from which a step ends on each: with fewer, that would cost many more steps.
 const ROOM: f64 = 4.0;
@@ -45,25 +45,13 @@ pub(crate) fn options(model: &Model) -> Options {
     } else {
         0.0
     };
-    let mut breakpoints: Vec<f64> = model
-        .loads
-        .iter()
-        .map(|load| &load.force)
-        .chain(model.moments.iter().map(|moment| &moment.moment))
-        .flat_map(|size| size.breakpoints_apart(apart))
-        .collect();
-    breakpoints.extend(match &scene.drive {
-        Drive::Speed(value) | Drive::Torque { value, .. } => value.breakpoints_apart(apart),
-    });
-    if let Some(speed) = &scene.outer_speed {
-        breakpoints.extend(speed.breakpoints_apart(apart));
-    }
-    let given = model.rings.iter().flat_map(|ring| ring.given.all());
-    breakpoints.extend(given.flat_map(|(_, motion)| motion.breakpoints_apart(apart)));
+    let in_time = scene.values_in_time().into_iter();
     Options {
         first_step: solver.first_step,
         max_step,
-        breakpoints,
+        breakpoints: in_time
+            .flat_map(|value| value.breakpoints_apart(apart))
+            .collect(),
         ..Options::default()
     }
 }

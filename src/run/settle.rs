@@ -226,6 +226,13 @@ fn frozen(scene: &Scene) -> Scene {
     scene.inner_ring.support.theta = None;
     scene.outer_speed = scene.outer_speed.map(|_| outer);
     scene.ring_forces = scene.ring_forces.frozen();
+    debug_assert!(
+        scene
+            .values_in_time()
+            .iter()
+            .all(|value| matches!(value, TimeFunction::Constant(_))),
+        "a value that changes in time is not frozen"
+    );
     scene
 }
 

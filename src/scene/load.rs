@@ -176,6 +176,43 @@ impl Drive {
 }
 
 impl Scene {
+    /// All values that may change in time: of loads and moments, of the drive and of the outer ring, and given motions of rings.
+    pub(crate) fn values_in_time(&self) -> Vec<&TimeFunction> {
+        // Named one by one, so that the compiler asks about a new field.
+        let Self {
+            drive,
+            outer_speed,
+            loads,
+            moments,
+            outer_ring,
+            inner_ring,
+            unbalances: _,
+            table_forces: _,
+            ring_forces: _,
+            schema: _,
+            name: _,
+            rows: _,
+            structure: _,
+            materials: _,
+            contact: _,
+            friction: _,
+            lubricant: _,
+            spin: _,
+            cage: _,
+            gravity: _,
+            defects: _,
+            probes: _,
+            solver: _,
+        } = self;
+        let (Drive::Speed(drive) | Drive::Torque { value: drive, .. }) = drive;
+        let loads = loads.values().map(|load| &load.force);
+        let moments = moments.values().map(|of| &of.moment);
+        let rings = [outer_ring, inner_ring].into_iter();
+        let given = rings.flat_map(|ring| ring.support.given());
+        let speeds = [drive].into_iter().chain(outer_speed);
+        speeds.chain(loads).chain(moments).chain(given).collect()
+    }
+
     /// The size of a load, of a moment or of the drive's torque, or the given motion of a ring, by its path.
     pub(crate) fn in_time(&mut self, path: &str) -> Option<&mut TimeFunction> {
         if self.given_motion(path).is_some() {

@@ -158,6 +158,25 @@ impl Support {
         }
     }
 
+    /// Given motions along and about axes.
+    pub(super) fn given(&self) -> impl Iterator<Item = &TimeFunction> {
+        // Named one by one, so that the compiler asks about a new field.
+        let Self {
+            x,
+            y,
+            z,
+            theta,
+            tilt_x,
+            tilt_y,
+            coupled: _,
+        } = self;
+        let mounts = [x, y, z, theta, tilt_x, tilt_y].into_iter().flatten();
+        mounts.filter_map(|mount| match mount {
+            Mount::Given(motion) => Some(&**motion),
+            _ => None,
+        })
+    }
+
     /// Holds a ring of given motions where they begin.
     pub(crate) fn hold_given(&mut self) {
         for direction in ["x", "y", "z", "tilt_x", "tilt_y"] {
