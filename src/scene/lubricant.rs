@@ -6,7 +6,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::numbers::{BoundedNumber, NumberRange, POSITIVE, up_to};
 use super::oils::{Base, NAMED_OILS, NamedOil, OilSheet, OilSource, Sourced, named_oil};
-use super::time::number_or_word;
+use super::word;
 use crate::base::error::{Error, Result};
 
 /// 0 °C \[K\].
@@ -84,12 +84,14 @@ pub struct Lubricant {
 }
 
 /// Free oil in front of a contact: a number, or `"flooded"`.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(untagged, expecting = r#"a number [m], or "flooded""#)]
 #[non_exhaustive]
 pub enum OilLayer {
     /// A layer of this thickness \[m\], which bounds the film.
     Thickness(f64),
     /// Oil as much as the film needs.
+    #[serde(with = "word::flooded")]
     Flooded,
 }
 
@@ -108,9 +110,6 @@ impl From<f64> for OilLayer {
         Self::Thickness(value)
     }
 }
-
-/// The word that a document has in place of a number.
-const FLOODED: &str = "flooded";
 
 impl Lubricant {
     /// Viscosities \[m²/s\] from the lower limit of ASTM D341 to that above which no oil flows into a contact.
@@ -309,20 +308,5 @@ impl<'de> Deserialize<'de> for Lubricant {
             (false, None) => {}
         }
         Ok(read)
-    }
-}
-
-impl Serialize for OilLayer {
-    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
-        match self {
-            Self::Thickness(value) => serializer.serialize_f64(*value),
-            Self::Flooded => serializer.serialize_str(FLOODED),
-        }
-    }
-}
-
-impl<'de> Deserialize<'de> for OilLayer {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> std::result::Result<Self, D::Error> {
-        number_or_word(deserializer, FLOODED, Self::Thickness, Self::Flooded)
     }
 }

@@ -56,6 +56,7 @@ mod time;
 mod turning;
 mod validate;
 mod width;
+mod word;
 
 use std::collections::BTreeMap;
 

@@ -2,9 +2,10 @@
 
 use std::fmt;
 
-use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
+use serde::{Deserialize, Serialize};
 
 use super::numbers::{BoundedNumber, POSITIVE};
+use super::word;
 
 /// The method of integration.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -39,11 +40,13 @@ impl fmt::Display for Method {
 /// assert_eq!(RelativeTolerance::from(1e-8).or_exact(), 1e-8);
 /// assert_eq!(RelativeTolerance::Band.or_exact(), 1e-7);
 /// ```
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[serde(untagged, expecting = r#"a number from 1e-12 to 1e-1, or "band""#)]
 #[non_exhaustive]
 pub enum RelativeTolerance {
     /// 1e-4 where a record is filtered to 20.5 kHz and less and the scene was measured to bear it, else 1e-7.
     #[default]
+    #[serde(with = "word::band")]
     Band,
     /// This one, for any record.
     Of(f64),
@@ -70,33 +73,6 @@ impl RelativeTolerance {
 impl From<f64> for RelativeTolerance {
     fn from(rtol: f64) -> Self {
         Self::Of(rtol)
-    }
-}
-
-impl Serialize for RelativeTolerance {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        match self {
-            Self::Band => to.serialize_str("band"),
-            Self::Of(rtol) => to.serialize_f64(*rtol),
-        }
-    }
-}
-
-impl<'de> Deserialize<'de> for RelativeTolerance {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        #[derive(Deserialize)]
-        #[serde(untagged)]
-        enum NumberOrName {
-            Number(f64),
-            Name(String),
-        }
-        match NumberOrName::deserialize(from) {
-            Ok(NumberOrName::Number(rtol)) => Ok(Self::Of(rtol)),
-            Ok(NumberOrName::Name(name)) if name == "band" => Ok(Self::Band),
-            _ => Err(de::Error::custom(
-                "a number from 1e-12 to 1e-1, or \"band\"",
-            )),
-        }
     }
 }
 

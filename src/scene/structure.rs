@@ -1,12 +1,9 @@
 //! The machine around the outer ring, as a structure with modes.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt;
 use std::ops::RangeInclusive;
 
-use serde::de::value::SeqAccessDeserializer;
-use serde::de::{SeqAccess, Visitor};
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Serialize};
 
 use super::absent;
 use super::numbers::{BoundedNumber, up_to};
@@ -59,8 +56,11 @@ pub struct Mode {
 }
 
 /// Compliance of a point against forces on it \[m/N\].
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[serde(untagged)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(
+    untagged,
+    expecting = "a number, three numbers, or three rows of three"
+)]
 #[non_exhaustive]
 pub enum Compliance {
     /// The same along x, y and z.
@@ -141,42 +141,3 @@ impl Compliance {
         }
     }
 }
-
-impl<'de> Deserialize<'de> for Compliance {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        /// Three numbers or three rows, by the first of them.
-        #[derive(Deserialize)]
-        #[serde(untagged)]
-        enum Three {
-            Along([f64; 3]),
-            Full([[f64; 3]; 3]),
-        }
-        struct NumberOrMatrix;
-        impl<'de> Visitor<'de> for NumberOrMatrix {
-            type Value = Compliance;
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str(EXPECTED)
-            }
-            fn visit_f64<E>(self, value: f64) -> Result<Compliance, E> {
-                Ok(Compliance::Same(value))
-            }
-            fn visit_i64<E>(self, value: i64) -> Result<Compliance, E> {
-                Ok(Compliance::Same(value as f64))
-            }
-            fn visit_u64<E>(self, value: u64) -> Result<Compliance, E> {
-                Ok(Compliance::Same(value as f64))
-            }
-            fn visit_seq<A: SeqAccess<'de>>(self, items: A) -> Result<Compliance, A::Error> {
-                let three = Three::deserialize(SeqAccessDeserializer::new(items));
-                let misfit = || serde::de::Error::custom(format!("a misfit, expected {EXPECTED}"));
-                match three.map_err(|_| misfit())? {
-                    Three::Along(of) => Ok(Compliance::Along(of)),
-                    Three::Full(of) => Ok(Compliance::Full(of)),
-                }
-            }
-        }
-        deserializer.deserialize_any(NumberOrMatrix)
-    }
-}
-
-const EXPECTED: &str = "a number, three numbers, or three rows of three";

@@ -1,8 +1,8 @@
 //! Surface of a defect, and its place along the axis.
 
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::{Deserialize, Serialize};
 
-use super::time::number_or_word;
+use super::word;
 
 /// The surface that carries a defect.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -18,7 +18,8 @@ pub enum Surface {
 }
 
 /// Axial place of a defect's middle: a number, or `"contact"`.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(untagged, expecting = r#"a number [m], or "contact""#)]
 #[non_exhaustive]
 pub enum AxialOffset {
     /// Offset from the row's plane (races) or the ball's centre \[m\].
@@ -28,6 +29,7 @@ pub enum AxialOffset {
     /// ball that with the race that loads it more. Without equilibrium or load it is the place of the nominal contact
     /// angle. A run records the number, rounded to nanometres.
     #[default]
+    #[serde(with = "word::contact")]
     Contact,
 }
 
@@ -44,23 +46,5 @@ impl AxialOffset {
             Self::At(value) => Some(value),
             Self::Contact => None,
         }
-    }
-}
-
-/// The word that a document has in place of a number.
-const CONTACT: &str = "contact";
-
-impl Serialize for AxialOffset {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self {
-            Self::At(value) => serializer.serialize_f64(*value),
-            Self::Contact => serializer.serialize_str(CONTACT),
-        }
-    }
-}
-
-impl<'de> Deserialize<'de> for AxialOffset {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        number_or_word(deserializer, CONTACT, Self::At, Self::Contact)
     }
 }

@@ -2,14 +2,15 @@
 
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{MapAccess, Visitor};
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::{Deserialize, Deserializer, Serialize};
 
 use super::points::{Cubic, reached};
 
 /// A value in time: a plain number, or one of the [`Profile`]s.
 ///
 /// In TOML: `force = 7000.0`, or `force = { ramp = { from = 0.0, to = 7000.0, start = 0.0, end = 0.1 } }`.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
 #[non_exhaustive]
 pub enum TimeFunction {
     /// The same at all times.
@@ -274,15 +275,6 @@ impl TimeFunction {
     }
 }
 
-impl Serialize for TimeFunction {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self {
-            Self::Constant(value) => serializer.serialize_f64(*value),
-            Self::Profile(profile) => profile.serialize(serializer),
-        }
-    }
-}
-
 impl<'de> Deserialize<'de> for TimeFunction {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         number_or_map(
@@ -333,45 +325,5 @@ where
         expecting,
         from_number,
         from_map,
-    })
-}
-
-/// Reads a number or one word.
-pub(super) fn number_or_word<'de, D: Deserializer<'de>, T: Copy>(
-    deserializer: D,
-    word: &'static str,
-    from_number: fn(f64) -> T,
-    of_word: T,
-) -> Result<T, D::Error> {
-    struct NumberOrWord<T> {
-        word: &'static str,
-        from_number: fn(f64) -> T,
-        of_word: T,
-    }
-    impl<T: Copy> Visitor<'_> for NumberOrWord<T> {
-        type Value = T;
-        fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-            write!(f, "a number [m], or {:?}", self.word)
-        }
-        fn visit_f64<E>(self, value: f64) -> Result<T, E> {
-            Ok((self.from_number)(value))
-        }
-        fn visit_i64<E>(self, value: i64) -> Result<T, E> {
-            Ok((self.from_number)(value as f64))
-        }
-        fn visit_u64<E>(self, value: u64) -> Result<T, E> {
-            Ok((self.from_number)(value as f64))
-        }
-        fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<T, E> {
-            if text == self.word {
-                return Ok(self.of_word);
-            }
-            Err(E::invalid_value(serde::de::Unexpected::Str(text), &self))
-        }
-    }
-    deserializer.deserialize_any(NumberOrWord {
-        word,
-        from_number,
-        of_word,
     })
 }

@@ -2,13 +2,14 @@
 
 use std::ops::RangeInclusive;
 
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::{Deserialize, Deserializer, Serialize};
 
 use super::numbers::BoundedNumber;
 use super::time::number_or_map;
 
 /// Width of a defect along its length.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
 #[non_exhaustive]
 pub enum Width {
     /// The same over the whole length \[m\].
@@ -109,15 +110,6 @@ impl Width {
         match self {
             Self::Constant(width) => *width,
             Self::Profile(profile) => profile.widths.iter().copied().fold(0.0, f64::max),
-        }
-    }
-}
-
-impl Serialize for Width {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self {
-            Self::Constant(width) => serializer.serialize_f64(*width),
-            Self::Profile(profile) => profile.serialize(serializer),
         }
     }
 }
