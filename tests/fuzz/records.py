@@ -20,6 +20,7 @@ import xlsxwriter
 from scipy.io import savemat, wavfile
 
 import ballrace as br
+from ballrace.recordings.formats import FORMATS
 
 X = np.round(np.sin(np.arange(40.0)), 3)
 T = np.arange(40) / 1000.0
@@ -50,10 +51,12 @@ def seeds(end: str) -> tuple[bytes, ...]:
         return path.read_bytes(), *made[end](path)
 
 
-READ = ("lvm", "npy", "npz", "tdms", "xlsx")
-"""Ends of names of files that are only read."""
+_FIRST = {one.suffixes[0][1:]: one for one in FORMATS.values()}
 
-ENDS = ("csv", "wav", "mat", "uff", "h5", "parquet", *READ)
+READ = ("lvm", *(end for end, one in _FIRST.items() if not one.written))
+"""Ends of names of files that are only read, of LabVIEW's texts, too."""
+
+ENDS = (*(end for end, one in _FIRST.items() if one.written), *READ)
 
 
 def _csv(_: Path) -> list[bytes]:

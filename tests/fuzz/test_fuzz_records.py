@@ -78,17 +78,8 @@ def _target(end: str) -> Callable[[], None]:
     return target
 
 
-test_any_csv = _target("csv")
-test_any_wav = _target("wav")
-test_any_mat = _target("mat")
-test_any_uff = _target("uff")
-test_any_hdf5 = _target("h5")
-test_any_parquet = _target("parquet")
-test_any_lvm = _target("lvm")
-test_any_npy = _target("npy")
-test_any_npz = _target("npz")
-test_any_tdms = _target("tdms")
-test_any_xlsx = _target("xlsx")
+for _end in ENDS:
+    globals()[f"test_any_{_end}"] = _target(_end)
 
 
 @pytest.mark.parametrize("end", ENDS)

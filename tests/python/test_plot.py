@@ -9,6 +9,7 @@ import subprocess
 import sys
 from collections.abc import Callable
 from functools import partial
+from inspect import signature
 from pathlib import Path
 from typing import Literal
 
@@ -106,7 +107,11 @@ def test_a_missing_plotly_is_named_with_its_extra(tmp_path: Path) -> None:
     assert printed.splitlines() == [needs] * 3
 
 
-def drawn(faulty: br.Signals, wheel: br.Scene) -> dict[str, Callable[..., go.Figure]]:
+Drawn = dict[str, Callable[..., go.Figure]]
+
+
+@pytest.fixture(scope="module")
+def drawn(faulty: br.Signals, wheel: br.Scene, out: br.Signals, animated: br.Signals) -> Drawn:
     eq = br.equilibrium(wheel)
     found = br.spectra.kurtogram(faulty["outer.ay"], faulty.fs, narrowest=2000.0)
     table = pl.DataFrame({"a": [1.0, 2.0], "b": [1.0, 1.0], "c": [3.0, 4.0]})
@@ -122,19 +127,34 @@ def drawn(faulty: br.Signals, wheel: br.Scene) -> dict[str, Callable[..., go.Fig
         "section": partial(plot.section, wheel),
         "campaign_map": partial(plot.campaign_map, table, "a", "b", "c"),
         "distribution": partial(plot.distribution, table, "c"),
-        "unrolled": lambda fig=None, **layout: plot.unrolled(
-            wheel, eq, fig=None if fig is None else make_subplots(rows=2), **layout
-        ),
+        "unrolled": partial(plot.unrolled, wheel, eq),
+        "signals": partial(plot.signals, out, ["outer.y", "outer.ay"]),
+        "load_cases": partial(plot.load_cases, {"a": out, "b": out}),
+        "load_distribution": partial(plot.load_distribution, eq),
+        "force_distribution": partial(plot.force_distribution, eq),
+        "slice_forces": partial(plot.slice_forces, out),
+        "animation": partial(plot.animation, animated, frames=3),
+        "animation3d": partial(plot.animation3d, animated, frames=3),
     }
 
 
-def test_each_draws_into_a_figure_and_takes_a_layout(faulty: br.Signals, wheel: br.Scene) -> None:
-    for name, draw in drawn(faulty, wheel).items():
+def test_each_is_drawn_here_and_listed(drawn: Drawn) -> None:
+    """Every function that is public and draws: no new one is left out."""
+    functions = {name for name in plot.__all__ if callable(getattr(plot, name))}
+    draws = {name for name in functions if "layout" in signature(getattr(plot, name)).parameters}
+    assert set(drawn) == draws
+    assert set(re.findall(r":func:`(\w+)`", plot.__doc__ or "")) == draws | {"write"}
+
+
+def test_each_draws_into_a_figure_and_takes_a_layout(drawn: Drawn) -> None:
+    for name, draw in drawn.items():
         fig = draw(title="Own", height=333)
         assert (fig.layout.title.text, fig.layout.height) == ("Own", 333), name
-        own = go.Figure()
+        # A figure with as many panels.
+        own = draw()
+        own.data = ()
         again = draw(fig=own)
-        assert name == "unrolled" or again is own, name
+        assert again is own, name
         assert len(again.data) == len(fig.data) > 0, name
         titles = [a.title.text for a in fig.select_xaxes()] + [
             a.title.text for a in fig.select_yaxes()

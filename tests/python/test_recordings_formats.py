@@ -396,12 +396,19 @@ def test_the_bytes_of_a_file_win_over_its_name(tmp_path: Path) -> None:
 
 
 def test_the_table_of_formats_is_complete() -> None:
-    """One table: names, ends of files and first bytes are of one format each, and the guide lists all."""
+    """One table: names, ends of files and first bytes are of one format each, and texts list all."""
     suffixes = [suffix for one in formats.FORMATS.values() for suffix in one.suffixes]
     assert len(set(suffixes)) == len(suffixes)
     guide = (Path(__file__).parents[2] / "docs" / "files.md").read_text(encoding="utf-8")
-    listed = set(re.findall(r"`(\.\w+)`", guide))
-    assert listed == set(suffixes)
+    for text in (guide, br.recordings.__doc__ or ""):
+        assert set(re.findall(r"`(\.\w+)`", text)) == set(suffixes)
+    written = {end for one in formats.FORMATS.values() for end in one.suffixes[: one.written]}
+    ends = re.search(r"File that ends in (.*) or (.*)\.\n", br.Recording.write.__doc__ or "")
+    assert ends is not None
+    assert {*ends[1].split(", "), ends[2]} == written
+    names = re.search(r"One of (.*?);", br.read.__doc__ or "")
+    assert names is not None
+    assert {name.split(" ")[0] for name in names[1].split(", ")} == set(formats.FORMATS)
     for name, one in formats.FORMATS.items():
         assert name == one.name
         assert (one.write is None) == (one.written == 0)

@@ -13,16 +13,17 @@ import pytest
 
 import ballrace as br
 from ballrace._base import memory as _memory
+from ballrace.recordings.formats import FORMATS
 
 FS = 2000.0
 N = 6000
 X = np.round(np.random.default_rng(70).normal(size=N), 6)
 Y = np.round(np.random.default_rng(71).normal(size=N), 6)
 
-ENDS = (".csv", ".wav", ".mat", ".uff", ".h5", ".parquet")
+WRITTEN = {one.suffixes[0]: one.library for one in FORMATS.values() if one.written}
 
 
-@pytest.mark.parametrize("end", ENDS)
+@pytest.mark.parametrize("end", WRITTEN)
 @pytest.mark.parametrize(
     ("part", "rows"),
     [((None, 0.5), (0, 1000)), ((1.0, 1.5), (2000, 3000)), ((2.9, None), (5800, 6000)),
@@ -34,8 +35,7 @@ def test_a_part_of_a_record(
 ) -> None:
     (start, stop), (first, last) = part, rows
     path = tmp_path / f"a{end}"
-    if end == ".uff":
-        pytest.importorskip("pyuff")
+    pytest.importorskip(WRITTEN[end])
     br.Recording(columns={"x": X, "y": Y}, fs=FS, units={"x": "g"}).write(path)
     record = br.read(path, start=start, stop=stop)
     assert (list(record), record.fs, record.units["x"]) == (["x", "y"], FS, "g")

@@ -15,6 +15,7 @@ import pytest
 from scipy.io import savemat, wavfile
 
 import ballrace as br
+from ballrace.recordings.formats import FORMATS, Format
 from test_cwru import FOLDER
 
 if TYPE_CHECKING:
@@ -274,10 +275,14 @@ def test_universal_files_of_others(tmp_path: Path, binary: int) -> None:
     assert (record.fs, record.units["3"]) == (12_800.0, "g")
 
 
-@pytest.mark.parametrize("end", [".wav", ".mat", ".uff", ".h5", ".parquet"])
-def test_damaged_files_are_named(tmp_path: Path, end: str) -> None:
-    if end in (".uff", ".h5"):
-        pytest.importorskip({".uff": "pyuff", ".h5": "h5py"}[end])
+@pytest.mark.parametrize(
+    "form",
+    [one for one in FORMATS.values() if one.written and one.beginnings],
+    ids=lambda one: one.name,
+)
+def test_damaged_files_are_named(tmp_path: Path, form: Format) -> None:
+    pytest.importorskip(form.library)
+    end = form.suffixes[0]
     path = tmp_path / f"record{end}"
     br.Recording(columns={"x": X, "y": X}, fs=12e3).write(path)
     whole = path.read_bytes()

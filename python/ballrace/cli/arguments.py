@@ -12,17 +12,6 @@ from ..errors import SceneError
 from ..recordings.reading import key_of
 from ..scene import Scene
 
-__all__ = [
-    "Commands",
-    "add_budget",
-    "add_scene",
-    "add_signals",
-    "add_speeds",
-    "added",
-    "read_scene",
-    "said_of",
-]
-
 Commands = argparse._SubParsersAction
 
 
@@ -59,8 +48,8 @@ def add_signals(parser: argparse.ArgumentParser) -> None:
     """Add the argument of a file of signals, and what may have to be said about it."""
     parser.add_argument(
         "file", type=Path, metavar="FILE",
-        help="signals: a text table (CSV, LVM), MATLAB, HDF5, WAV, UFF58, Parquet, NPY, NPZ, TDMS, Excel; "
-        "- reads Parquet from standard input",
+        help="signals: a text table, MATLAB, WAV, Parquet or any other format that ballrace.read reads; - reads "
+        "Parquet from standard input",
     )  # fmt: skip
     parser.add_argument(
         "--fs", type=float, metavar="HZ", help="sampling rate, where the file does not have it"

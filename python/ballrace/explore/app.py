@@ -332,7 +332,7 @@ def dropping(beside, file, mo, named, opened):
     """Take a measured file."""
     dropped_file = mo.ui.file(
         kind="area",
-        label="Drop a measured file here: text, MATLAB, WAV, UFF, HDF5, TDMS, Excel, NPY, Parquet",
+        label="Drop a measured file here: text, MATLAB, WAV or any other format that br.read takes",
     )
     record_fs = mo.ui.number(
         0, 1e7, step=1, value=0, label="its sampling rate / Hz (0: that of the file)", debounce=True

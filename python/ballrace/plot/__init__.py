@@ -12,8 +12,9 @@ figure, whose ``data`` hold the numbers. :func:`write` makes a page of one that 
 of a signal                      :func:`impacts`, :func:`envelope_spectrum`, :func:`psd`,
                                  :func:`spectrogram`, :func:`order_map`, :func:`kurtogram`
 of a run                         :func:`signals`, :func:`load_cases`, :func:`orbit`, :func:`ball_path`,
-                                 :func:`slice_forces`, :func:`animation`
-of a bearing under load          :func:`section`, :func:`load_distribution`, :func:`unrolled`
+                                 :func:`slice_forces`, :func:`animation`, :func:`animation3d`
+of a bearing under load          :func:`section`, :func:`load_distribution`, :func:`force_distribution`,
+                                 :func:`unrolled`
 of a campaign                    :func:`campaign_map`, :func:`distribution`
 ===============================  ===========================================================================
 

@@ -23,8 +23,6 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
-__all__ = ["Columns", "no_column"]
-
 
 class Columns:
     """Columns at one sampling rate: read-only arrays by their names, as of a mapping.
@@ -240,7 +238,7 @@ class Columns:
         path: str | os.PathLike[str],
         columns: str | Iterable[str] | Mapping[str, str] | None = None,
     ) -> None:
-        """Write a file of the format that its name ends in: CSV, WAV, ``.mat``, UFF58, HDF5 or Parquet.
+        """Write a file of the format that its name ends in (:mod:`ballrace.recordings`).
 
         The file appears at once when it is whole; one of the same name is replaced. :func:`ballrace.read` reads it
         back: the same numbers (of 32 bits in WAV), rate and units.

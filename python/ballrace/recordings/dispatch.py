@@ -27,8 +27,6 @@ if TYPE_CHECKING:
     from .reading import Chosen, Key
     from .samples import Samples
 
-__all__ = ["read"]
-
 
 def read(
     path: str | os.PathLike[str],
@@ -49,10 +47,9 @@ def read(
 ) -> Recording:
     r"""Read a measured record, or one that ``write`` wrote.
 
-    Read are text tables (CSV and whatever loggers export, LVM), MATLAB files of all versions, HDF5, WAV, Universal
-    Files with data sets 58, Parquet, also that of runs, NPY, NPZ, TDMS and Excel workbooks. In a text the table is
-    found by itself, with its separators, decimal marks, names and units; columns that are times, or count, are
-    recognised by their steps and are no signals. Names of data sets are known: of the Case Western Reserve
+    :mod:`ballrace.recordings` lists the formats. In a text, of whatever logger, the table is found by itself, with
+    its separators, decimal marks, names and units; columns that are times, or count, are recognised by their steps
+    and are no signals. Names of data sets are known: of the Case Western Reserve
     University (columns ``DE``, ``FE``, ``BA``), Paderborn University (``vibration_1``, …; slower ones in
     ``others``), the MFPT society (``acceleration``) and LMS. What cannot be known is asked for: the message names
     the argument.
