@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 
 from .text import printable
 
-__all__ = ["folded", "paragraph", "points", "table", "waveform"]
-
 _PIECES, _HEIGHT = 300, 40
 """Width of a waveform, a pixel a piece of it, and its height [px]."""
 

@@ -8,8 +8,6 @@ from collections.abc import Callable, Mapping
 from importlib import import_module
 from typing import Any
 
-__all__ = ["later", "listed"]
-
 
 def later(
     package: str, homes: Mapping[str, tuple[str, ...]], moved: Mapping[str, str] | None = None

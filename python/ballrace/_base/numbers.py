@@ -9,17 +9,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..errors import SceneError
 
-__all__ = [
-    "RATES",
-    "counted",
-    "finite",
-    "positive",
-    "read_only",
-    "real",
-    "real_row",
-    "sampling_rate",
-]
-
 RATES = 1e-9, 1e15
 """Sampling rates that are taken [Hz]."""
 

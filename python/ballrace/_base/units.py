@@ -7,8 +7,6 @@ from numpy.typing import NDArray
 
 from ..errors import SceneError
 
-__all__ = ["ENVELOPE", "GRAVITY", "canonical", "in_unit"]
-
 GRAVITY = 9.80665
 """Standard gravity, one g [m/s²], by the definition of the CGPM of 1901."""
 

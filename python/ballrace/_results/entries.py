@@ -8,8 +8,6 @@ from typing import Any, Literal
 
 from ..scene import Surface
 
-__all__ = ["Record", "Touched"]
-
 
 class Record(Mapping[str, Any]):
     """A read-only mapping whose entries are attributes too: ``stats.nfev`` is ``stats["nfev"]``."""

@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     from ..scene import Scene
     from ..spectra.checks import Given
 
-__all__ = ["feature_options", "features"]
-
 
 @answers_ctrl_c
 def features(

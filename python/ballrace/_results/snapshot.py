@@ -22,8 +22,6 @@ if TYPE_CHECKING:
 
     Piece = dict[str, NDArray[np.float64]]
 
-__all__ = ["Snapshot"]
-
 _FORMAT = "1"
 _ENTRY = "ballrace_snapshot"
 """Key of a snapshot in the metadata of a file: the number of its form, and what the core needs."""

@@ -17,17 +17,6 @@ from .filled import filled
 from .pedestal import chosen_housing
 from .rows import catalogue
 
-__all__ = [
-    "OUTER",
-    "OUTER_RING",
-    "SEAT_DAMPING",
-    "SEAT_STIFFNESS",
-    "asked_clearance",
-    "bearing",
-    "metal",
-    "rows_of",
-]
-
 _HALF_THE_BALLS = 1.22
 """Thrust over Fr tan α with which half of the balls carry (Sjövall's integrals at ε = 0.5)."""
 

@@ -7,8 +7,6 @@ import math
 from .._base.numbers import real
 from ..errors import SceneError
 
-__all__ = ["CLASSES", "clearance_limits", "radial_clearance"]
-
 CLASSES = ("C2", "CN", "C3", "C4", "C5")
 
 # Bore up to and including [mm], then least and largest clearance of C2, CN, C3, C4, C5 [µm].

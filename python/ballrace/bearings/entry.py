@@ -8,8 +8,6 @@ from typing import Literal, TypeAlias
 from ..frequencies import kinematic
 from .sources import Sources
 
-__all__ = ["Bearing", "Kind", "Uncertainty"]
-
 Kind: TypeAlias = Literal["deep_groove", "angular_contact", "double_row", "thrust"]
 """Kind of a bearing; a ``double_row`` one has angular contact, back to back."""
 

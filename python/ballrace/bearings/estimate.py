@@ -17,8 +17,6 @@ from ..ratings.load_rating import dynamic_rating, static_rating
 from .entry import Bearing, Kind, Uncertainty
 from .sources import CONFORMITY, Sources
 
-__all__ = ["BALLS", "estimated"]
-
 _INCH = 25.4e-3
 BALLS = tuple(
     sorted(

@@ -32,8 +32,6 @@ from ..scene.lubricant import chosen
 if TYPE_CHECKING:
     from ..scene import Probe, Spin, Structure, Unbalance
 
-__all__ = ["filled", "named", "with_spin"]
-
 T = TypeVar("T")
 
 _OF_6205 = 7.94e-3

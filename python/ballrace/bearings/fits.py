@@ -9,8 +9,6 @@ from dataclasses import dataclass
 from .._base.numbers import real
 from ..errors import SceneError
 
-__all__ = ["Interference", "Seat", "bearing_limits", "interference", "limits"]
-
 _UP_TO = (6, 10, 18, 30, 50, 80, 120, 180, 250, 315, 400, 500)
 """Ends of the ranges of nominal diameters, from above 3 [mm]."""
 

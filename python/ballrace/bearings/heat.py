@@ -23,8 +23,6 @@ if TYPE_CHECKING:
 
     from ..scene import Scene
 
-__all__ = ["OperatingClearance", "Temperatures", "operating_clearance", "steady_temperatures"]
-
 _RING = Seat(free_diameter=math.nan)
 """Material of the rings, bearing steel."""
 

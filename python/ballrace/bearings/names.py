@@ -14,8 +14,6 @@ from dataclasses import dataclass
 from functools import cache, lru_cache
 from importlib import resources
 
-__all__ = ["Name", "bare", "near", "read", "without_maker"]
-
 _MAKERS = (
     "SKF", "FAG", "INA", "SCHAEFFLER", "NSK", "NTN", "SNR", "KOYO", "JTEKT", "NACHI", "TIMKEN", "FAFNIR", "LDK",
     "REXNORD", "NMB", "MB", "IBU", "HRB", "ZWZ", "LYC", "ZKL", "KYK", "FBJ", "TPI", "NKE",

@@ -13,8 +13,6 @@ from ..scene import Mode, Structure
 if TYPE_CHECKING:
     from ..scene import Compliance
 
-__all__ = ["OF_6205", "chosen_housing", "pedestal"]
-
 OF_6205 = 52e-3
 """Outside diameter of the bearing that the table is for [m]."""
 

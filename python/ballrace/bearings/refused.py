@@ -7,8 +7,6 @@ import re
 
 from ..frequencies.kinematic import Orders, orders
 
-__all__ = ["why_not"]
-
 _KINDS = (
     (r"(R?NUP?|R?NJ|NF|NH|NCF|NJG|NN[UC]?F?|R?N)\d", "a cylindrical roller bearing"),
     (r"(NA|RNA|NKI?A?S?|NK[ISX]|HK|BK|K|NX|AXK|F?NTN?)\d", "a needle roller bearing"),

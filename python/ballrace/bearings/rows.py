@@ -17,8 +17,6 @@ from .names import Name, near, read, without_maker
 from .refused import why_not
 from .sources import BOUNDARY, CONFORMITY, SOURCES, UNLIKE, Sources
 
-__all__ = ["Catalogue", "catalogue"]
-
 
 class Catalogue(Mapping[str, Bearing]):
     """The bearings by their designations; ``ballrace.catalogue`` is the one that there is.

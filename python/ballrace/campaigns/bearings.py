@@ -15,8 +15,6 @@ from .designs import counted_cases
 if TYPE_CHECKING:
     from ..scene import Scene
 
-__all__ = ["scatter"]
-
 _LIMIT = 3.0
 """Parts further than this many standard deviations from the drawing have been sorted out."""
 

@@ -16,8 +16,6 @@ from .._base.libraries import pl, scipy
 from .._base.numbers import counted, real
 from ..errors import SceneError
 
-__all__ = ["grid", "latin_hypercube", "sobol"]
-
 MOST_CASES = 10_000_000
 """Most rows of a table: a mistyped number is refused before it takes the memory."""
 

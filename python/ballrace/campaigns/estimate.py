@@ -17,8 +17,6 @@ from .work import run_here
 if TYPE_CHECKING:
     from .arguments import Plan
 
-__all__ = ["Estimate"]
-
 _ROW = 16
 """Bytes that a feature takes in a shard of many rows, names and statistics of the file included."""
 

@@ -21,8 +21,6 @@ if TYPE_CHECKING:
     from ..signals import Signals
     from .store import Store
 
-__all__ = ["Kept"]
-
 
 class Kept:
     """A campaign's folder, read; the part of :class:`ballrace.campaigns.Campaign` that only looks."""

@@ -22,8 +22,6 @@ from ..scene import Scene
 from ..signals import Signals
 from .columns import found_in
 
-__all__ = ["Measured", "features_table", "measured", "windows_table"]
-
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Measured:

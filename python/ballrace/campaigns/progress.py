@@ -11,8 +11,6 @@ from typing import NamedTuple, TextIO
 from .._base.progress import is_watched
 from .._base.text import printable
 
-__all__ = ["Progress"]
-
 _WIDTH = 30
 _OFTEN = 0.2
 """The bar is drawn no more often than this [s]."""

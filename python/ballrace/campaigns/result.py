@@ -20,8 +20,6 @@ if TYPE_CHECKING:
 
     from ..measuring.named import Chains
 
-__all__ = ["Campaign"]
-
 _FEW = 10
 """Rows of the manifest that a notebook shows."""
 

@@ -41,8 +41,6 @@ if TYPE_CHECKING:
 
     from ..scene import Method, Scene
 
-__all__ = ["campaign"]
-
 
 class _Options(TypedDict, total=False):
     """The arguments of :func:`campaign` that do not decide what it returns."""

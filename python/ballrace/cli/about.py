@@ -22,8 +22,6 @@ from .text import print_table
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_commands", "version"]
-
 _EXTRAS = {
     "numpy": "", "polars": "", "scipy": "", "plotly": "plot", "h5py": "io", "pyuff": "io",
     "nptdms": "io", "fastexcel": "io", "distributed": "campaign", "marimo": "app",

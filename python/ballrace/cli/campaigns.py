@@ -22,8 +22,6 @@ from ..options import ARGUMENTS, BUDGET
 from ..scene import Scene
 from .arguments import Commands, add_budget
 
-__all__ = ["add_commands", "read"]
-
 _ARGUMENTS = (
     *(name for name in ARGUMENTS if name != "threads"), "keep", "columns", "skip", "band", "contact_loads",
 )  # fmt: skip

@@ -25,8 +25,6 @@ if TYPE_CHECKING:
     from ..diagnosis.kinematics import AnyBearing
     from ..recordings.columns import Columns
 
-__all__ = ["add_commands"]
-
 _SPEED = re.compile(r"rpm|speed|drehzahl|1/min|min-1|r/min|u/min|tr/min|vitesse", re.IGNORECASE)
 """Pattern of a speed in the head of a file."""
 

@@ -16,8 +16,6 @@ if TYPE_CHECKING:
     import argparse
     from collections.abc import Iterator
 
-__all__ = ["add_commands"]
-
 
 def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:
     """Add the subcommand."""

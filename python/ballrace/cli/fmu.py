@@ -23,8 +23,6 @@ from .arguments import Commands, add_scene, added, read_scene
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_commands"]
-
 _ENDINGS = {"linux": ".so", "darwin": ".dylib", "win32": ".dll"}
 _SYSTEMS = {"darwin": "darwin", "win32": "windows"}
 _MACHINES = {"amd64": "x86_64", "arm64": "aarch64"}

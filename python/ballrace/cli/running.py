@@ -21,8 +21,6 @@ from .arguments import Commands, add_budget, add_scene, add_speeds, added, read_
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_commands"]
-
 _DEFAULTS = Run()
 _RUN_OPTIONS: dict[str, dict[str, Any]] = {
     "duration": {

@@ -30,8 +30,6 @@ if TYPE_CHECKING:
     from ..frequencies.operating import FaultFrequencies
     from ..recordings.columns import Columns
 
-__all__ = ["add_commands", "local", "read_columns"]
-
 _STRONGEST = 10
 _HARMONICS = 5
 

@@ -21,8 +21,6 @@ if TYPE_CHECKING:
 
     from ..scene import Scene
 
-__all__ = ["add_commands"]
-
 
 def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:
     """Add both subcommands."""

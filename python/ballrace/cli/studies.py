@@ -16,8 +16,6 @@ from .text import print_table
 if TYPE_CHECKING:
     import argparse
 
-__all__ = ["add_commands"]
-
 
 def add_commands(commands: Commands[argparse.ArgumentParser]) -> None:
     """Add both subcommands."""

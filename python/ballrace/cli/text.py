@@ -9,8 +9,6 @@ from numpy.typing import NDArray
 
 from .._base.text import printable
 
-__all__ = ["numbers", "print_size", "print_table"]
-
 
 def numbers(values: NDArray[np.float64], digits: int) -> list[str]:
     """Return numbers with some decimals, a dash for what is none."""

@@ -24,8 +24,6 @@ if TYPE_CHECKING:
 
     Rows = Iterator[tuple[dict[str, Any], NDArray[np.float64]]]
 
-__all__ = ["write_campaign"]
-
 
 def write_campaign(
     done: Campaign,

@@ -8,8 +8,6 @@ from .._base.libraries import pl
 from ..errors import SceneError
 from ..scene.defect import SURFACES
 
-__all__ = ["classes_of"]
-
 _KNOWN = (("fault_type",), ("label",), tuple(f"fault_{on}" for on in SURFACES))
 """Columns of classes: in data sets, in windows of a run, in campaigns and their windows."""
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-__all__ = ["COLUMNS", "SCHEMA_VERSION"]
-
 SCHEMA_VERSION = 2
 
 COLUMNS = {

@@ -18,8 +18,6 @@ from ..channel import Channel
 from ..errors import FileError
 from .layout import SCHEMA_VERSION
 
-__all__ = ["BearingDataset", "read_bearing_dataset"]
-
 _UNKNOWN = ("unknown", "counts", "normalized")
 """Units of that layout which are none."""
 

@@ -21,8 +21,6 @@ if TYPE_CHECKING:
     from ..campaigns.measured import Measured
     from ..scene import Scene
 
-__all__ = ["AXES", "axis_of", "row_of", "sensor_row"]
-
 _FAULTS = {"outer_race": "outer", "inner_race": "inner", "ball": "rolling_element"}
 """Name in the layout by the surface of a defect."""
 

@@ -16,8 +16,6 @@ if TYPE_CHECKING:
     import polars as pl
     from numpy.typing import NDArray
 
-__all__ = ["bearing_split"]
-
 _TRIES = 200
 """Random orders in which bearings are assigned; the most even result counts."""
 

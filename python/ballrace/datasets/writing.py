@@ -21,8 +21,6 @@ from .._io.parquet import writing_to
 from ..errors import SceneError
 from .layout import COLUMNS, SCHEMA_VERSION
 
-__all__ = ["as_page", "card_of", "digest_of", "new_folder", "write", "write_block", "write_table"]
-
 _BLOCK = 8 << 20
 """Samples of a file, about [bytes]: what is read for one of its signals."""
 

@@ -20,8 +20,6 @@ from ..scene import Scene, SpeedDrive
 from ..signals import Signals
 from ..statics import LoadDistribution, load_distribution
 
-__all__ = ["COLUMN", "Case", "passing", "run_case"]
-
 COLUMN = "outer.ay"
 _FS = 50_000.0
 

@@ -14,8 +14,6 @@ if TYPE_CHECKING:
 
     from .case import Case
 
-__all__ = ["page"]
-
 
 def page(cases: Mapping[str, Case]) -> Page:
     """Return the page."""

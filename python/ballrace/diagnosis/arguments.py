@@ -21,15 +21,6 @@ if TYPE_CHECKING:
     from ..channel import Channel
     from .kinematics import AnyBearing, Kinematics
 
-__all__ = [
-    "check_false_alarm",
-    "checked_channel",
-    "known_bearing",
-    "known_within",
-    "nominal_rate",
-    "other_rates",
-]
-
 
 def checked_channel(channel: Channel, unit: str | None, name: str = "record") -> Channel:
     """Return the channel in m/s² where its unit is known, cut to a length that transforms quickly."""

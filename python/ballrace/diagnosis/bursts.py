@@ -11,8 +11,6 @@ if TYPE_CHECKING:
     from .combs import Part
     from .evidence import Evidence
 
-__all__ = ["Bursts", "bursts_of"]
-
 _IMPACTS = 10.0
 """Kurtosis from which on there are impacts: damaged balls of measured sets have 11 to 55, or none."""
 

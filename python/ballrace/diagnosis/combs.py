@@ -12,8 +12,6 @@ if TYPE_CHECKING:
     from ..frequencies.kinematic import Orders
     from .envelopes import Levels
 
-__all__ = ["CAGE_FACTORS", "PARTS", "WIDTH", "Comb", "Part", "cage_factor_of", "comb_of", "role_of"]
-
 Part = Literal["outer_race", "inner_race", "ball", "cage"]
 """A part of a bearing."""
 

@@ -7,8 +7,6 @@ from numpy.typing import NDArray
 
 from .._base.libraries import scipy
 
-__all__ = ["without_drift"]
-
 _SMOOTHED = 0.25
 """Turns over which the median is smoothed twice, so that it adds nothing to bands that are empty."""
 

@@ -18,19 +18,6 @@ if TYPE_CHECKING:
 
     from ..frequencies.kinematic import Orders
 
-__all__ = [
-    "FLOOR",
-    "Levels",
-    "band_envelope",
-    "bands_of",
-    "envelope_spectra",
-    "half_spectrum",
-    "levels_of",
-    "line_spectrum",
-    "reach_of",
-    "without_rings",
-]
-
 FLOOR, CEILING = -3.0, 35.0
 """Levels count within these [dB]: a gap weighs no more than a weak line, and one line alone makes no comb."""
 

@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     from .search import Search
     from .strength import Envelopes
 
-__all__ = ["Evidence", "Line", "evidence_of"]
-
 _SHARES = (0.5, 0.99)
 """Shares of the null's lines that bound its band in pictures; above the second one a line counts."""
 

@@ -23,8 +23,6 @@ if TYPE_CHECKING:
     from ..channel import Channel
     from .kinematics import Kinematics
 
-__all__ = ["Examined", "bands_for", "examined", "spectra_of"]
-
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Examined:

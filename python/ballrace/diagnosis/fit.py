@@ -15,8 +15,6 @@ import json
 from importlib import resources
 from typing import Any
 
-__all__ = ["fit"]
-
 
 @functools.cache
 def fit() -> dict[str, Any]:

@@ -14,8 +14,6 @@ from ..frequencies.kinematic import Orders, of_row
 from ..frequencies.operating import FaultFrequencies, rates_at_a_turn
 from ..scene import Row, Scene
 
-__all__ = ["LEAST", "AnyBearing", "Kinematics", "kinematics_of"]
-
 AnyBearing: TypeAlias = (
     "str | Bearing | Scene | Row | Orders | FaultFrequencies | Mapping[str, float]"
 )

@@ -16,8 +16,6 @@ if TYPE_CHECKING:
     from .kinematics import Kinematics
     from .shaft import ShaftRate
 
-__all__ = ["FEWEST_TURNS", "HELD", "lack_of", "notes_of", "unclipped", "unexplained", "wanting_of"]
-
 FEWEST_TURNS = 20.0
 """Turns of the shaft below which the running median under a line has too few bins for a null."""
 

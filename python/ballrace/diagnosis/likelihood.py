@@ -27,8 +27,6 @@ if TYPE_CHECKING:
     from .combs import Part
     from .evidence import Evidence
 
-__all__ = ["at_any_size", "numbers_of", "with_ratios"]
-
 _LARGEST = 100.0
 _Z = 12.0
 """z above which more does not count: longer records have higher ones than the library's."""

@@ -27,8 +27,6 @@ if TYPE_CHECKING:
     from .envelopes import Levels
     from .kinematics import Kinematics
 
-__all__ = ["another_rate", "changing_speed", "given_in_hertz", "repeating"]
-
 _ORDERS = 1.5, 9.0
 """Orders of the shaft at which impacts are looked for."""
 

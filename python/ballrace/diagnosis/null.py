@@ -26,17 +26,6 @@ if TYPE_CHECKING:
     from .combs import Comb
     from .envelopes import Levels
 
-__all__ = [
-    "ACCUSED",
-    "ByChance",
-    "Found",
-    "found_of",
-    "largest_z",
-    "levels_by_chance",
-    "null_orders",
-    "probability",
-]
-
 ACCUSED = PARTS[:3]
 """Parts that a verdict may name: the cage's line alone is no sign of damage."""
 

@@ -14,8 +14,6 @@ from .verdict import NAMES
 if TYPE_CHECKING:
     from .result import Diagnosis
 
-__all__ = ["diagnosis_page"]
-
 _METHOD = (
     "Prewhitening by the cepstrum, and over a running mean as wide as the shaft's rate; spectra of the squared "
     "envelope in overlapping bands, over their medians. For each part the mean level of its lines, the largest "

@@ -23,8 +23,6 @@ if TYPE_CHECKING:
 
     Band = tuple[float, float]
 
-__all__ = ["AveragedPass", "Passes", "averaged", "passes_of"]
-
 _BANDS = (
     (1e3, 3e3), (2e3, 5e3), (4e3, 8e3), (6e3, 12e3), (10e3, 20e3), (1.5e3, 6e3), (3e3, 12e3), (5e3, 20e3),
 )  # fmt: skip

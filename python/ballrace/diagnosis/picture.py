@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     from .evidence import Evidence
     from .result import Diagnosis
 
-__all__ = ["picture"]
-
 _MARKS = FLOOR - 2.0
 """Level at which marks stand, below all lines [dB]."""
 

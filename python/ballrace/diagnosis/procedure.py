@@ -43,8 +43,6 @@ if TYPE_CHECKING:
     from .sensitivity import Sensitivity
     from .severity import Machine
 
-__all__ = ["diagnose"]
-
 _GRAVITY = 9.81
 """Acceleration of falling balls [m/s²]."""
 

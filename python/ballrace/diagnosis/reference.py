@@ -17,8 +17,6 @@ if TYPE_CHECKING:
     from ..spectra.checks import Given
     from .result import Diagnosis
 
-__all__ = ["against"]
-
 
 def against(
     of: Diagnosis, reference: Given, fs: float | None, column: str | None, unit: str | None

@@ -25,8 +25,6 @@ if TYPE_CHECKING:
 
     from ..spectra.checks import Given
 
-__all__ = ["Diagnosis"]
-
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Diagnosis:

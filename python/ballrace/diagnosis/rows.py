@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     from ..scene import Scene
     from .result import Diagnosis
 
-__all__ = ["judged_by_rows"]
-
 _ALIKE = 0.015
 """Orders of two rows that differ by less, as a part of them, are those of one for a search that allows for
 slip."""

@@ -21,8 +21,6 @@ if TYPE_CHECKING:
     from .null import Found
     from .strength import Envelopes
 
-__all__ = ["Sensitivity", "sensitivity_of"]
-
 _LINE = 0.5
 """Amplitude of a line of the squared envelope over its mean, where impacts make up all of a band.
 

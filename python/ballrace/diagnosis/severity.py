@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     from ..channel import Channel
     from .strength import Envelopes
 
-__all__ = ["Change", "Machine", "Severity", "checked_machine", "severity_of"]
-
 Machine = Literal["large_rigid", "large_flexible", "medium_rigid", "medium_flexible"]
 """Class of a machine: large, above 300 kW, or medium, 15 to 300 kW; on a rigid or a flexible foundation."""
 

@@ -11,8 +11,6 @@ from numpy.typing import NDArray
 from .envelopes import levels_of, line_spectrum
 from .null import probability
 
-__all__ = ["FURTHEST", "WITHIN", "ShaftRate", "shaft_rate"]
-
 WITHIN = 0.01
 """How far the rate may be from a nominal one, as a part of it, where nobody says so."""
 

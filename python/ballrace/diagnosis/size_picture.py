@@ -12,8 +12,6 @@ from .verdict import NAMES
 if TYPE_CHECKING:
     from .width import Sized
 
-__all__ = ["size_picture"]
-
 
 def size_picture(
     of: Sized | None, beside: Sized | None, fig: go.Figure | None, layout: dict[str, Any]

@@ -17,8 +17,6 @@ if TYPE_CHECKING:
 
     from .result import Diagnosis
 
-__all__ = ["width_over_speeds"]
-
 _APART = 1.3
 """Highest speed over the lowest, at least."""
 

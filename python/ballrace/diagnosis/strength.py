@@ -19,8 +19,6 @@ from numpy.typing import NDArray
 from .combs import WIDTH
 from .envelopes import band_envelope, half_spectrum, line_spectrum, reach_of
 
-__all__ = ["SHALLOW", "Envelopes", "Strength", "strength_at"]
-
 _HARMONICS = 6
 
 SHALLOW = 0.5

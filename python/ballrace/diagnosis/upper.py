@@ -9,8 +9,6 @@ from numpy.typing import NDArray
 
 from ..spectra.pieces import transforms
 
-__all__ = ["needed_edge", "upper_edge"]
-
 _BELOW = 30.0
 """How far below the median of what is lower a third of an octave does not count [dB]."""
 

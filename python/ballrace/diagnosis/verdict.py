@@ -24,8 +24,6 @@ if TYPE_CHECKING:
     from .evidence import Evidence
     from .sensitivity import Sensitivity
 
-__all__ = ["NAMES", "SIZES", "UNLIKELY", "Size", "Verdict", "Verdicts", "decided"]
-
 Verdicts = Literal["healthy", "damaged", "undecided"]
 
 NAMES: dict[Part, str] = {

@@ -30,8 +30,6 @@ if TYPE_CHECKING:
     from .kinematics import Kinematics
     from .passes import Passes
 
-__all__ = ["Sized", "Width", "along", "are_clear", "sized", "unknown_width", "width_of_arc"]
-
 _RACES = ("outer_race", "inner_race")
 
 _HIGH, _ABOVE, _AGREEING, _SHARE = 0.03, 3.0, 3, 0.55

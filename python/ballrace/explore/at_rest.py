@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     from ..ratings.life import RatingLife
     from .live import Live
 
-__all__ = ["numbers", "page"]
-
 
 def page(live: Live) -> str:
     """Return the text beside the drawings, as HTML."""

@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from ..bearings.entry import Kind
     from ..scene import Scene
 
-__all__ = ["described", "named", "read_file", "summary"]
-
 Housing = Literal["pedestal", "bare ring"]
 _SPEED = 1800.0
 """Speed at which the slider begins [1/min]."""

@@ -12,8 +12,6 @@ if TYPE_CHECKING:
 
     from .settings import Settings
 
-__all__ = ["Control", "controls", "named", "taken"]
-
 _TAG = re.compile(r"(?:\\|&#92;)u003c.*?(?:\\|&#92;)u003e")
 """A tag in an attribute of an element, as marimo writes it there."""
 

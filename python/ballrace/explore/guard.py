@@ -23,8 +23,6 @@ if TYPE_CHECKING:
     Application = Callable[[Message, Receive, Send], Awaitable[None]]
     Headers = list[tuple[bytes, bytes]]
 
-__all__ = ["POLICY", "Guard"]
-
 POLICY = "content-security-policy"
 """Header by which it is known that an answer has passed the guard."""
 

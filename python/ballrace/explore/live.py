@@ -14,8 +14,6 @@ from ..scene import Scene
 from ..scene.turning import constant_speeds
 from ..statics import Equilibrium, LoadDistribution, Stiffness, load_distribution, stiffness
 
-__all__ = ["Live", "solved"]
-
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Live:

@@ -24,8 +24,6 @@ if TYPE_CHECKING:
     Race = Literal["outer", "inner"]
     Points = NDArray[np.float64] | list[tuple[float, float]]
 
-__all__ = ["contacts", "pictures", "section", "turned"]
-
 _INK, _STEEL, _BALL, _DAMAGE, _LOAD = "#333", "#dfe6ee", "#f9fafb", "#c8452f", "#1f6fb4"
 _SIZE = 320
 """Width and height of a drawing [px]."""

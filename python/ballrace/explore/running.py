@@ -13,8 +13,6 @@ from ..run import simulate
 from ..scene import Scene
 from ..signals import Signals
 
-__all__ = ["FS", "Forecast", "Runner", "Running"]
-
 FS = 25_600.0
 """Sampling rate of the page's runs [Hz]."""
 

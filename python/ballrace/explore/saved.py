@@ -16,8 +16,6 @@ if TYPE_CHECKING:
     from ..scene import Scene
     from ..signals import Signals
 
-__all__ = ["notebook", "report", "scene_file"]
-
 
 def scene_file(scene: Scene) -> bytes:
     """Return a scene as TOML, which ``ballrace run`` and ``ballrace explore`` read."""

@@ -18,8 +18,6 @@ if TYPE_CHECKING:
     from ..frequencies.operating import FaultFrequencies
     from ..signals import Signals
 
-__all__ = ["envelope", "orders", "rates_of", "sensed", "sound", "waveform"]
-
 _FADE = 0.01
 """Time over which a sound rises and falls, so that it does not click [s]."""
 

@@ -20,8 +20,6 @@ from ..errors import BallraceError, SceneError
 from .chosen import read_file
 from .guard import POLICY
 
-__all__ = ["HOST", "Page", "served"]
-
 HOST = "127.0.0.1"
 """Address of loopback, which no other machine reaches."""
 

@@ -12,8 +12,6 @@ from typing import Any
 
 from .guard import Guard
 
-__all__ = ["serve"]
-
 _PATIENCE = 5.0
 """How long the server may take to end by itself [s]."""
 

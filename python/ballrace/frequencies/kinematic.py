@@ -17,8 +17,6 @@ from ..errors import SceneError
 if TYPE_CHECKING:
     from ..scene import Row
 
-__all__ = ["Orders", "bpfi", "bpfo", "bsf", "ftf", "of_row", "orders"]
-
 _STANDS = 1e-6
 """Turns of a ring, as a part of those of the rings against each other, up to which it stands but for round-off."""
 

@@ -30,8 +30,6 @@ if TYPE_CHECKING:
     from ..scene import Row
     from ..statics import RaceControl
 
-__all__ = ["FaultFrequencies", "fault_frequencies"]
-
 _Speeds: TypeAlias = tuple[float, float]
 """Frequencies of outer and inner ring [Hz]."""
 

@@ -12,8 +12,6 @@ from .._base.libraries import pl
 from ..datasets.classes import classes_of
 from ..errors import SceneError
 
-__all__ = ["Examples", "examples"]
-
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Examples:

@@ -25,8 +25,6 @@ from .recipe import SURFACES, Recipe, ends_of
 if TYPE_CHECKING:
     from ..scene import Defect, Scene, Spin, Surface
 
-__all__ = ["LABELS", "Drawing"]
-
 LABELS = ("bearing_id", "part", "shape", "size_mm")
 """Columns of the table that are no fields of a scene; ``shape`` is ``none``, ``pit`` or ``spall``."""
 

@@ -28,8 +28,6 @@ if TYPE_CHECKING:
 
     from ..channel import Channel
 
-__all__ = ["NAMES", "PATH", "character_of"]
-
 _BANDS = 6
 _LINE = 10.0 ** (12.0 / 20.0)
 _BESIDE = 31

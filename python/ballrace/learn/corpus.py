@@ -58,8 +58,6 @@ if TYPE_CHECKING:
     from ..campaigns import Campaign
     from ..measuring import Chain
 
-__all__ = ["make_corpus"]
-
 _AT_ONCE = 4
 """Runs of a batch for each that runs at once: their signals are on disk until they are measured."""
 

@@ -16,8 +16,6 @@ from .cases import Drawing
 from .data import OVERSAMPLED, SKIP
 from .recipe import Recipe
 
-__all__ = ["BLOCK", "OWN", "SIZES", "Plan", "drawing_of", "for_testing"]
-
 SIZES = tuple(f"6{series}{bore:02}" for series in (0, 2, 3) for bore in range(17))
 _SPEEDS, _FASTEST = (600.0, 3600.0), 3e5
 """Speeds [1/min], and the largest speed times the pitch diameter [mm/min], at which grease lasts."""

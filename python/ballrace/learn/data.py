@@ -32,8 +32,6 @@ if TYPE_CHECKING:
     from ..campaigns import Progress
     from .envelope_lines import EnvelopeLines
 
-__all__ = ["Simulated", "dataset"]
-
 SKIP = 0.03
 """Beginning of a measurement in which path and sensor ring up [s]: five times 1/(2 ζ f) of 800 Hz at 1 %."""
 OVERSAMPLED = 2

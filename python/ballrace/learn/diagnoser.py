@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     from ..channel import Recorded
     from ..diagnosis.kinematics import AnyBearing
 
-__all__ = ["Diagnoser", "Judgement"]
-
 _base = needed("sklearn.base", "ballrace.learn", extra="learn")
 _checks = needed("sklearn.utils.validation", "ballrace.learn", extra="learn")
 

@@ -22,8 +22,6 @@ if TYPE_CHECKING:
     from ..diagnosis.kinematics import AnyBearing
     from .data import Simulated
 
-__all__ = ["DomainReport", "compared", "domain_report", "marks_of"]
-
 _ENDS = (0.01, 0.99)
 _FOLDS = 4
 _BETRAYING = 10

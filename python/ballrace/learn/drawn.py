@@ -14,15 +14,6 @@ if TYPE_CHECKING:
     from ..bearings import Bearing
     from ..scene import Scene, Structure, Surface
 
-__all__ = [
-    "fault_fields",
-    "is_small",
-    "log_uniform",
-    "slip_fields",
-    "structure_fields",
-    "texture_fields",
-]
-
 _SLIP_BY_BALLS = 1.4e4
 """Scatter of the times between impacts over that of the balls' diameters [1/m].
 

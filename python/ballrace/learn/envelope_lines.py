@@ -20,8 +20,6 @@ if TYPE_CHECKING:
 
     from ..diagnosis.kinematics import AnyBearing
 
-__all__ = ["EnvelopeLines"]
-
 _base = needed("sklearn.base", "ballrace.learn", extra="learn")
 _checks = needed("sklearn.utils.validation", "ballrace.learn", extra="learn")
 

@@ -17,8 +17,6 @@ if TYPE_CHECKING:
     from ..diagnosis.envelopes import Levels
     from ..frequencies.kinematic import Orders
 
-__all__ = ["features_of", "names_of"]
-
 _SHORTEST = 64
 """Samples below which a band has too few for any envelope."""
 

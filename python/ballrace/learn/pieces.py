@@ -14,8 +14,6 @@ from ..diagnosis.arguments import nominal_rate
 from ..errors import SceneError
 from ..measuring import Logger
 
-__all__ = ["FEWEST_TURNS", "pieces_of"]
-
 FEWEST_TURNS = 5.0
 """A shorter record has no usable lines."""
 

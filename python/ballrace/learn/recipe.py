@@ -16,8 +16,6 @@ from ..errors import SceneError
 if TYPE_CHECKING:
     from ..scene import Surface
 
-__all__ = ["LARGEST_SLIP", "SURFACES", "Fault", "Range", "Recipe", "ends_of"]
-
 Fault = Literal["outer", "inner", "ball"]
 """Place of a fault."""
 

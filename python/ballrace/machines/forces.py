@@ -8,8 +8,6 @@ from .._base.numbers import finite, positive, real
 from ..errors import SceneError
 from ..scene import Load
 
-__all__ = ["belt", "force", "gear"]
-
 
 def force(x: float = 0.0, y: float = 0.0, z: float = 0.0, *, at: float) -> Load:
     """Return a force on a shaft's axis, such as of an overhung impeller.

@@ -18,8 +18,6 @@ from .shafts import SPEEDS, shaft
 if TYPE_CHECKING:
     from ..scene import Structure
 
-__all__ = ["Arrangement", "pair"]
-
 Arrangement = Literal["back_to_back", "face_to_face", "tandem"]
 """How two bearings stand: lines of contact meet the axis outside of them, between them, or are parallel."""
 

@@ -13,8 +13,6 @@ from ..statics import Equilibrium, equilibrium
 if TYPE_CHECKING:
     from ..scene import Scene
 
-__all__ = ["Reaction", "reactions"]
-
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Reaction:

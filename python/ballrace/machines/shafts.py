@@ -28,8 +28,6 @@ from ..scene import Defect, Load, Lubricant, Ring, Row, Scene, Spring, Support, 
 if TYPE_CHECKING:
     from ..scene import Structure
 
-__all__ = ["SPEEDS", "shaft"]
-
 SPEEDS = {
     **dict.fromkeys(("speed", "rpm", "n"), "speed_rpm, the speed of the shaft [1/min]"),
     **OUTER,

@@ -29,8 +29,6 @@ from .sensor import Sensor
 from .source import Source, of_array, of_signals
 from .tacho import Tacho
 
-__all__ = ["CLIPPED", "Chain", "Measurement", "measure", "measured"]
-
 CLIPPED = 1e-3
 """Share of clipped samples above which there is a warning."""
 

@@ -10,8 +10,6 @@ from numpy.typing import ArrayLike, NDArray
 from .._base.numbers import real_row
 from ..errors import SceneError
 
-__all__ = ["finite_row", "rising"]
-
 
 def finite_row(name: str, values: ArrayLike) -> NDArray[np.float64]:
     """Return numbers, all finite, as an array of one dimension."""

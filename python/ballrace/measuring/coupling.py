@@ -18,8 +18,6 @@ if TYPE_CHECKING:
 
     from ..scene import Ring, Scene, Structure
 
-__all__ = ["TOO_MUCH", "coupling"]
-
 TOO_MUCH = 0.3
 """Coupling from which a path belongs into the scene: at 0.1 the rms is right within 10 %."""
 

@@ -19,8 +19,6 @@ from .machine import MEASURED_FLOOR, Machine
 from .path import log_uniform, random_housing
 from .sensor import Sensor
 
-__all__ = ["random_chains", "random_machine"]
-
 _LEVELS = (1e-2, 1e2)
 """Density of the noise over that of record 97, whose motor is a quiet one: 20 dB either way."""
 _OWN_LEVELS = (0.5, 2.0)

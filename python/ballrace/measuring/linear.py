@@ -11,8 +11,6 @@ from numpy.typing import NDArray
 
 from ..errors import SceneError
 
-__all__ = ["Transfer", "passed"]
-
 _LONGEST = 2**26
 """Samples of ringing that are taken up behind a record, at most."""
 

@@ -14,8 +14,6 @@ from .._base.numbers import counted, positive
 from ..errors import SceneError
 from .noise import noise
 
-__all__ = ["Logger"]
-
 _STOP = 80.0
 """Attenuation of the anti-aliasing filter [dB]."""
 

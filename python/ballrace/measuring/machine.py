@@ -17,8 +17,6 @@ if TYPE_CHECKING:
 
     from .source import Source
 
-__all__ = ["MEASURED_FLOOR", "Machine"]
-
 MEASURED_FLOOR = (
     (50.0, 150.0, 300.0, 550.0, 850.0, 1200.0, 1700.0, 2400.0, 3400.0, 4800.0, 6800.0, 9600.0, 13_600.0, 19_200.0,
      24_000.0),

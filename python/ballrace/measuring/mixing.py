@@ -10,8 +10,6 @@ from numpy.typing import ArrayLike, NDArray
 from ..errors import SceneError
 from .checks import finite_row
 
-__all__ = ["mix_into"]
-
 
 def mix_into(
     x: ArrayLike, background: ArrayLike, snr_db: float, *, seed: int | None = None

@@ -10,8 +10,6 @@ from .._base.libraries import pl
 from ..errors import SceneError
 from .chain import Chain
 
-__all__ = ["Chains", "named_chains", "table"]
-
 Chains = Chain | Mapping[str, Chain] | Sequence[Chain]
 """A chain, some by their names, or some that are numbered from 0."""
 

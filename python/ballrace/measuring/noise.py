@@ -11,8 +11,6 @@ from .._base.numbers import positive
 from ..errors import SceneError
 from .checks import finite_row
 
-__all__ = ["Density", "checked_density", "noise"]
-
 Density = float | tuple["ArrayLike", "ArrayLike"]
 """Power spectral density, one-sided: that of white noise, or frequencies [Hz] and the densities there."""
 

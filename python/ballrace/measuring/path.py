@@ -21,8 +21,6 @@ if TYPE_CHECKING:
 
     from .linear import Transfer
 
-__all__ = ["ImpulseResponse", "MeasuredResponse", "Path", "axes", "random_housing", "through"]
-
 
 @dataclass(frozen=True, eq=False)
 class MeasuredResponse:

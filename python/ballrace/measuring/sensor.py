@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 
 from .._base.numbers import positive
 
-__all__ = ["Sensor"]
-
 
 @dataclass(frozen=True, kw_only=True)
 class Sensor:

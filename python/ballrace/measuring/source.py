@@ -26,8 +26,6 @@ if TYPE_CHECKING:
     from ..signals import Signals
     from .path import Path
 
-__all__ = ["Source", "of_array", "of_signals"]
-
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Source:

@@ -9,8 +9,6 @@ from numpy.typing import NDArray
 
 from .._base.numbers import counted, positive
 
-__all__ = ["Tacho"]
-
 
 @dataclass(frozen=True, kw_only=True)
 class Tacho:

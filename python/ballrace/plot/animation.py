@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     from ..scene import Probe, Scene
     from ..signals import Signals
 
-__all__ = ["animation", "check", "player", "probes", "samples"]
-
 
 def probes(scene: Scene) -> dict[str, Probe]:
     """Return the probes that a run needs for :func:`animation`: the motion of all bodies, and all loads.

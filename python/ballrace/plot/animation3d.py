@@ -14,8 +14,6 @@ from .turning import Turning
 if TYPE_CHECKING:
     from ..signals import Signals
 
-__all__ = ["animation3d"]
-
 
 def animation3d(
     out: Signals,

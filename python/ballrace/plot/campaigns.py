@@ -18,8 +18,6 @@ if TYPE_CHECKING:
 
     from ..campaigns import Campaign
 
-__all__ = ["campaign_map", "distribution"]
-
 
 def campaign_map(
     done: Campaign | pl.DataFrame,

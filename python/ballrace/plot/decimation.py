@@ -7,8 +7,6 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["min_max"]
-
 Array = NDArray[np.float64]
 
 

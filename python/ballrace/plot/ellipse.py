@@ -14,8 +14,6 @@ if TYPE_CHECKING:
 
     from ..scene import Row
 
-__all__ = ["axis_ratio", "semi_axes"]
-
 
 def axis_ratio(row: Row, race: Literal["outer", "inner"]) -> float:
     """Return the ellipse's axis across the rolling direction over that along it, at the nominal contact angle.

@@ -13,8 +13,6 @@ if TYPE_CHECKING:
 
     from ..spectra.bands import FaultBand
 
-__all__ = ["add_lines"]
-
 
 def add_lines(fig: go.Figure, bands: Sequence[FaultBand], top: float) -> None:
     """Draw lines from 0 to ``top`` where bands have their middle, with a marker and a label on top.

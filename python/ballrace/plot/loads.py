@@ -23,8 +23,6 @@ if TYPE_CHECKING:
 
     Loads = Equilibrium | LoadDistribution
 
-__all__ = ["force_distribution", "load_distribution", "slice_forces"]
-
 
 def load_distribution(
     loads: Loads | Mapping[str, Loads],

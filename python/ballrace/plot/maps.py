@@ -28,8 +28,6 @@ if TYPE_CHECKING:
     from ..spectra.bands import Fault
     from ..spectra.checks import Given
 
-__all__ = ["kurtogram", "order_map", "spectrogram"]
-
 SHADES = "Cividis"
 """Colours from dark to light for everyone, and on paper."""
 

@@ -23,8 +23,6 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["ball_path", "orbit"]
-
 _LONGEST = 10_000
 """Samples of an orbit that are drawn; of more, one could see no path."""
 

@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     from ..scene import Defect
     from ..signals import Signals
 
-__all__ = ["Moving"]
-
 Array = NDArray[np.float64]
 
 _INK = "#333333"

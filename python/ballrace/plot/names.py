@@ -6,8 +6,6 @@ import re
 
 from .style import title, words
 
-__all__ = ["feature", "parameter"]
-
 _UNITS = {
     "force": "N", "width": "m", "length": "m", "clearance": "m", "axial_offset": "m", "edge_radius": "m",
     "ball_diameter": "m", "pitch_diameter": "m", "speed": "rad/s", "angle": "rad", "start_angle": "rad",

@@ -12,8 +12,6 @@ from numpy.typing import NDArray
 if TYPE_CHECKING:
     from ..scene import Row, Scene
 
-__all__ = ["Outlines", "circle", "groove", "on_groove", "outlines", "race_radius"]
-
 Array = NDArray[np.float64]
 
 _WALL = 0.35

@@ -22,8 +22,6 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["unrolled"]
-
 _WIDER = 5.0
 """Ellipses are drawn so many times as wide as they are: a race is a hundred times as long as they are."""
 

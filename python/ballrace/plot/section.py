@@ -22,8 +22,6 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["section"]
-
 _STEEL = {"outer": "#dfe6ee", "inner": "#cfd9e4", "ball": "#f3f5f7"}
 _INK = "#333333"
 

@@ -24,8 +24,6 @@ if TYPE_CHECKING:
     from ..spectra.bands import Fault
     from ..spectra.checks import Given
 
-__all__ = ["check_columns", "check_run", "faults_of", "rates_of", "scene_of", "source", "spin_of"]
-
 
 def source(of: Given, column: str | None, fs: float | None) -> Channel:
     """Return the signal that is meant, checked, with name and unit as a picture shows them.

@@ -24,8 +24,6 @@ if TYPE_CHECKING:
     from ..spectra.bands import Fault
     from ..spectra.checks import Given
 
-__all__ = ["envelope_spectrum", "psd"]
-
 
 def envelope_spectrum(
     of: Given,

@@ -17,19 +17,6 @@ if TYPE_CHECKING:
 
     import plotly.graph_objects as go
 
-__all__ = [
-    "COLOURS",
-    "CONFIG",
-    "DASHES",
-    "MARKERS",
-    "SYMBOLS",
-    "finished",
-    "unit",
-    "words",
-    "wrapped",
-    "write",
-]
-
 COLOURS = ("#1f6fb4", "#c8452f", "#3a8f4a", "#7a53a6", "#a8700c", "#23808a")
 """Colours of lines, each of which stands out from white and, with its dash or marker, from the others."""
 

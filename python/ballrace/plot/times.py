@@ -28,8 +28,6 @@ if TYPE_CHECKING:
     from ..spectra.bands import Fault
     from ..spectra.checks import Given
 
-__all__ = ["impacts", "load_cases", "signals"]
-
 # Beyond this many points the browser is better served by WebGL.
 _MANY = 20_000
 

@@ -23,8 +23,6 @@ if TYPE_CHECKING:
 
     from ..signals import Signals
 
-__all__ = ["Turning"]
-
 Array = NDArray[np.float64]
 Race = Literal["outer", "inner"]
 

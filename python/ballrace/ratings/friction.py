@@ -12,8 +12,6 @@ from dataclasses import dataclass
 from .._base.numbers import real
 from ..errors import SceneError
 
-__all__ = ["FrictionTorque", "friction_torque_palmgren", "friction_torque_skf"]
-
 _SERIES = {
     ("160", "161"): (4.3e-7, 1.7, 4.63e-3, 4.25),
     ("60", "630"): (4.1e-7, 1.7, 3.73e-3, 14.6),

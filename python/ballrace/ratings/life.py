@@ -29,8 +29,6 @@ if TYPE_CHECKING:
     from ..bearings import Bearing
     from ..scene import Scene
 
-__all__ = ["RatingLife", "rating_life"]
-
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class RatingLife:

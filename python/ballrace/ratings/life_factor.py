@@ -14,8 +14,6 @@ from ..statics import RaceFilm, equilibrium
 if TYPE_CHECKING:
     from ..scene import Scene
 
-__all__ = ["Contamination", "LifeFactor", "check_contamination", "life_factor"]
-
 Contamination = Literal["extreme", "high", "normal", "slight", "typical", "severe", "very severe"]
 """Classes of ISO 281: extreme, high and normal cleanliness; slight, typical, severe, very severe contamination."""
 

@@ -12,17 +12,6 @@ from ..errors import SceneError
 if TYPE_CHECKING:
     from ..scene import Row, Scene
 
-__all__ = [
-    "F0",
-    "FC",
-    "dynamic_rating",
-    "equivalent_load",
-    "race_ratings",
-    "row_rating",
-    "static_rating",
-    "together",
-]
-
 FC = (
     29.1, 35.8, 40.3, 43.8, 46.7, 49.1, 51.1, 52.8, 54.3, 55.5, 56.6, 57.5, 58.2, 58.8, 59.3, 59.6, 59.8, 59.9,
     60.0, 59.9, 59.8, 59.6, 59.3, 59.0, 58.6, 58.2, 57.7, 57.1, 56.6, 56.0, 55.3, 54.6, 53.9, 53.2, 52.4, 51.7,

@@ -11,8 +11,6 @@ from ..errors import FileError
 from .fields import NAMES, Candidate, fields_of
 from .headers import are_titles
 
-__all__ = ["told_apart"]
-
 _SEVERAL = 20
 """Rows in which one digit would once be two if it were a number of its own."""
 

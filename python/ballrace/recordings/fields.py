@@ -7,17 +7,6 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-__all__ = [
-    "NAMES",
-    "NUMBERS",
-    "Candidate",
-    "fields_of",
-    "is_mixed_row",
-    "is_row",
-    "kind_of",
-    "kinds_of",
-]
-
 NAMES = 3
 """Most lines of names and units above a table."""
 

@@ -22,8 +22,6 @@ if TYPE_CHECKING:
 
     from .recording import Recording
 
-__all__ = ["RecordFolder", "read_folder"]
-
 Times = Literal["names", "modified"]
 
 _DIGITS = re.compile(r"\d+")

@@ -13,8 +13,6 @@ from .lines import other_ways
 from .reading import Reading
 from .samples import Samples
 
-__all__ = ["FORMATS", "Format", "by_contents", "by_name"]
-
 
 @dataclass(frozen=True, kw_only=True)
 class Format:

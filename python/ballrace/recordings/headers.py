@@ -12,15 +12,6 @@ from ..errors import FileError
 from .fields import NAMES, Candidate, fields_of, is_mixed_row, is_row, kind_of
 from .titles import is_time_name, named, time_unit
 
-__all__ = [
-    "REMARK",
-    "are_titles",
-    "broken_row",
-    "check_preamble",
-    "names_in_remark",
-    "titles_above",
-]
-
 REMARK = "#"
 """Beginnings of lines that are remarks and belong to no table."""
 

@@ -16,8 +16,6 @@ if TYPE_CHECKING:
     from .reading import Reading
     from .samples import Samples
 
-__all__ = ["format_of", "read_here"]
-
 _OF_THE_CONTENT = (None, errno.EINVAL, errno.EOVERFLOW)
 """Numbers of errors of the system that damaged content causes, as by a place before the file's beginning."""
 

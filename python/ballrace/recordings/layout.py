@@ -19,8 +19,6 @@ from .fields import NAMES, NUMBERS, Candidate, fields_of, is_mixed_row, is_row, 
 from .headers import REMARK, check_preamble, names_in_remark, titles_above
 from .lines import other_ways
 
-__all__ = ["Layout", "layout_of"]
-
 LONG = 10
 """Rows of a run that is a table, whatever follows."""
 

@@ -9,8 +9,6 @@ from pathlib import Path
 
 from ..errors import FileError
 
-__all__ = ["Text"]
-
 PIECE = 1 << 24
 """How much of a file is read at once [bytes]."""
 

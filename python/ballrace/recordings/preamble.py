@@ -10,8 +10,6 @@ from .._base.units import is_unit
 from .rates import stated_rate
 from .samples import Said
 
-__all__ = ["described", "rate_in"]
-
 _ENTRY = re.compile(r"^(?P<key>[^:=;,\t|]{1,60}?)\s*(?:[:=;,\t|]\s*)+(?P<value>.*?)[;,\t|\s]*$")
 _QUANTITY = re.compile(
     r"(?P<number>[+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?)[\s;,|]*"

@@ -7,8 +7,6 @@ import re
 
 from .titles import TIME_UNITS, time_unit
 
-__all__ = ["roundest", "stated_rate"]
-
 _RATE = re.compile(
     r"f ?s(?:amp\w*)?|f ?a|sr|sps|sampl\w* ?(?:rate|freq\w*|clock|per ?sec\w*)"
     r"|(?:scan|acquisition|daq|logging|abtast|mess) ?(?:rate|freq\w*)"

@@ -12,8 +12,6 @@ from .._base.numbers import counted, real, sampling_rate
 from ..errors import SceneError
 from .titles import TIME_UNITS, time_unit
 
-__all__ = ["Chosen", "Key", "Reading", "checked", "key_of"]
-
 Key = str | int
 """A column, by its name or by its place from 0; -1 is the last."""
 

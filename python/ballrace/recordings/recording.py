@@ -20,8 +20,6 @@ from .windows import Origin
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-__all__ = ["Recording"]
-
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Recording(Columns):

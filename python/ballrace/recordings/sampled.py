@@ -23,8 +23,6 @@ if TYPE_CHECKING:
     from .reading import Key, Reading
     from .times import Steps
 
-__all__ = ["at_its_rate", "cut", "sampled", "signals_of"]
-
 _SURE = 2e-4
 """How well times that are rounded have to know the rate, as a part of it."""
 

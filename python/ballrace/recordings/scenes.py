@@ -12,8 +12,6 @@ from .windows import Origin
 if TYPE_CHECKING:
     from ..scene import Scene
 
-__all__ = ["origin_of", "shaft_of"]
-
 
 def shaft_of(scene: Scene) -> float | None:
     """Return the rate of the inner ring against the outer [Hz] where a scene keeps it constant, else None."""

@@ -9,8 +9,6 @@ from numpy.typing import NDArray
 
 from .._base.libraries import pl
 
-__all__ = ["seconds"]
-
 _CLOCK = (
     r"(?:^|[T ,_-])(?P<hour>\d{1,2}):(?P<minute>\d{1,2})(?::(?P<second>\d{1,2}))?"
     r"(?:[.,:](?P<fraction>\d{1,15}))?\s*(?P<half>[AaPp])?"

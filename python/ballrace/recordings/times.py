@@ -15,17 +15,6 @@ from numpy.typing import NDArray
 
 from .titles import is_time_name, time_unit
 
-__all__ = [
-    "Column",
-    "Steps",
-    "Times",
-    "clock_of",
-    "examined",
-    "find_times",
-    "is_counter",
-    "times_in",
-]
-
 EQUAL = 0.1
 """How far a time may lie off equal steps, in steps: they are rounded, or one is missing."""
 

@@ -6,8 +6,6 @@ import re
 
 from .._base.units import is_unit
 
-__all__ = ["TIME_UNITS", "is_time_name", "named", "time_unit"]
-
 TIME_UNITS = {
     "s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "min": 60.0, "h": 3600.0, "d": 86400.0, "samples": None,
 }  # fmt: skip

@@ -24,8 +24,6 @@ if TYPE_CHECKING:
 
     from .reading import Reading
 
-__all__ = ["Leaf", "Tree", "from_tree"]
-
 _WIDEST = 64
 """Most columns of a matrix of signals."""
 

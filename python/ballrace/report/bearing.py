@@ -17,8 +17,6 @@ if TYPE_CHECKING:
     from ..scene import Scene
     from .page import Page
 
-__all__ = ["add_bearing", "add_loads"]
-
 
 def add_bearing(page: Page, scene: Scene, operation: Sequence[tuple[str, str]]) -> None:
     """Add the measures of the bearing with facts of its operation, and a drawing of it."""

@@ -15,8 +15,6 @@ if TYPE_CHECKING:
 
     from ..campaigns import Campaign
 
-__all__ = ["campaign_page"]
-
 _SHOWN = 40
 """Lines of a table of failures or warnings, at most."""
 

@@ -20,8 +20,6 @@ if TYPE_CHECKING:
 
     import plotly.graph_objects as go
 
-__all__ = ["Page"]
-
 _STYLE = """
 :root { color-scheme: light }
 body { font: 16px/1.5 system-ui, "Segoe UI", Helvetica, Arial, sans-serif; color: #222; background: #fff;

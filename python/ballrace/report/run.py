@@ -15,8 +15,6 @@ if TYPE_CHECKING:
 
     from ..signals import Signals
 
-__all__ = ["add_model", "add_provenance", "run_page"]
-
 
 def run_page(
     out: Signals, *, columns: Sequence[str] | None = None, title: str | None = None

@@ -21,8 +21,6 @@ if TYPE_CHECKING:
     from ..signals import Signals
     from .page import Page
 
-__all__ = ["add_features", "add_signal", "chosen"]
-
 _SHORT = 512
 """Samples below which spectra say nothing."""
 

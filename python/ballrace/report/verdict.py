@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     from ..signals import Signals
     from .page import Page
 
-__all__ = ["add_verdict"]
-
 
 def add_verdict(page: Page, out: Signals, names: Sequence[str]) -> dict[str, tuple[float, float]]:
     """Add what :func:`ballrace.diagnose` says of the first acceleration, or why it says nothing.

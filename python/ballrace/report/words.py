@@ -18,8 +18,6 @@ if TYPE_CHECKING:
     from ..ratings.life import RatingLife
     from ..scene import Defect, Lubricant, NormalLaw, Scene, TimeFunction
 
-__all__ = ["absent", "bearing", "degrees", "large", "lasting", "model", "number", "operation"]
-
 
 def number(value: float | None, digits: int = 4) -> str:
     """Return a number with some significant digits.

@@ -17,8 +17,6 @@ if TYPE_CHECKING:
 
     from .page import Page
 
-__all__ = ["check_page", "write_page"]
-
 
 def check_page(path: Path, name: str = "path") -> None:
     """Refuse a place where no page can be written, given as ``name``.

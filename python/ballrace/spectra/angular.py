@@ -16,8 +16,6 @@ from ..errors import SceneError
 from .checks import checked_signal
 from .lines import spectrum
 
-__all__ = ["by_order", "order_spectrum", "turning"]
-
 
 @answers_ctrl_c
 def by_order(

@@ -23,8 +23,6 @@ if TYPE_CHECKING:
 
     from ..frequencies.kinematic import Orders
 
-__all__ = ["Fault", "FaultBand", "FaultMetrics", "fault_band_metrics", "fault_bands"]
-
 Fault = Literal["outer_race", "inner_race", "ball", "cage"]
 """Part that is damaged."""
 

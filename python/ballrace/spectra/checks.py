@@ -17,8 +17,6 @@ if TYPE_CHECKING:
 
     from ..channel import Recorded
 
-__all__ = ["Given", "checked_band", "checked_length", "checked_signal", "given_signal"]
-
 Given: TypeAlias = "Recorded | ArrayLike"
 """A run, a measurement, a recording or a channel of one, or an array."""
 

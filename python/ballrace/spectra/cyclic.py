@@ -24,8 +24,6 @@ if TYPE_CHECKING:
 
     from .checks import Given
 
-__all__ = ["cyclic_coherence", "improved_envelope_spectrum"]
-
 _PIECES = 64
 """Pieces, each half over the next one, that a signal is cut into by default."""
 

@@ -15,8 +15,6 @@ if TYPE_CHECKING:
 
     from .checks import Given
 
-__all__ = ["psd", "spectrogram"]
-
 
 @answers_ctrl_c
 def psd(

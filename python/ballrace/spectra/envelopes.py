@@ -22,13 +22,6 @@ if TYPE_CHECKING:
 
     from .checks import Given
 
-__all__ = [
-    "envelope_spectrum",
-    "log_envelope_spectrum",
-    "squared_envelope",
-    "squared_envelope_spectrum",
-]
-
 _FAINT = 1e-12
 """Part of the mean squared envelope below which no logarithm is taken."""
 

@@ -32,8 +32,6 @@ if TYPE_CHECKING:
 
     Complex = NDArray[np.complex128]
 
-__all__ = ["Kurtogram", "kurtogram", "spectral_kurtosis"]
-
 _TAPS = 16
 """Order of the filter that halves a band; as in the paper. One that takes a third has half as much again."""
 

@@ -25,8 +25,6 @@ if TYPE_CHECKING:
 
     from .checks import Given
 
-__all__ = ["comb", "floor", "line", "spectrum"]
-
 
 @answers_ctrl_c
 def spectrum(x: Given, fs: float | None = None) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

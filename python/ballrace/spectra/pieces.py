@@ -9,8 +9,6 @@ from .._base.libraries import scipy
 from ..errors import SceneError
 from .checks import checked_length
 
-__all__ = ["hann", "piece_length", "transforms"]
-
 _SHORTEST = 8
 """Samples of a piece, at least."""
 

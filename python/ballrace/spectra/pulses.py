@@ -27,8 +27,6 @@ if TYPE_CHECKING:
     State: TypeAlias = tuple[int, int]
     States: TypeAlias = dict[State, tuple[float, State | None]]
 
-__all__ = ["angle_from_pulses", "pulse_times"]
-
 _CHANGE = math.log(1.5)
 """Most that the logarithm of the speed may change from one interval to the next."""
 

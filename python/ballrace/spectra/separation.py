@@ -16,8 +16,6 @@ if TYPE_CHECKING:
 
     from .checks import Given
 
-__all__ = ["separated"]
-
 _PIECES = 32
 """Pieces that a signal is cut into by default."""
 

@@ -21,8 +21,6 @@ if TYPE_CHECKING:
 
     from .checks import Given
 
-__all__ = ["BANDS_ISO15242", "VelocityBand", "bands_iso15242"]
-
 BANDS_ISO15242 = ((50.0, 300.0), (300.0, 1800.0), (1800.0, 10_000.0))
 """Low, medium and high band at 1800 1/min [Hz] (ISO 15242-2)."""
 

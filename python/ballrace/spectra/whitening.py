@@ -17,8 +17,6 @@ if TYPE_CHECKING:
 
     from .checks import Given
 
-__all__ = ["prewhitened"]
-
 _FAINT = 1e-12
 """Part of the largest amplitude below which a spectrum holds rounding alone: such frequencies stay silent."""
 

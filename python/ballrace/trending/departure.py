@@ -7,8 +7,6 @@ from numpy.typing import NDArray
 
 from .._base.libraries import scipy
 
-__all__ = ["departure_of", "limit_of"]
-
 _DEVIATIONS = 3.0
 
 _ROUNDING = 1e-9

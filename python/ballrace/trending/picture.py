@@ -12,8 +12,6 @@ from .quantities import FOLLOWED
 if TYPE_CHECKING:
     from .result import Trend
 
-__all__ = ["picture"]
-
 _NAMES = {
     "rms": "root mean square",
     "velocity": "velocity",

@@ -23,8 +23,6 @@ if TYPE_CHECKING:
     from ..channel import Channel
     from ..diagnosis.kinematics import Kinematics
 
-__all__ = ["TURNS", "Pool"]
-
 TURNS = 60.0
 """Turns of the shaft in a group of records, at least, as far as the baseline allows."""
 

@@ -32,8 +32,6 @@ if TYPE_CHECKING:
     from ..diagnosis.severity import Machine
     from ..spectra.checks import Given
 
-__all__ = ["trend"]
-
 _OVERLAPPING = 1.5
 """Independent values that those of groups which overlap are worth, over those of groups which do not."""
 

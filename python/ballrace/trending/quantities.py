@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     from ..channel import Channel
     from ..diagnosis import Diagnosis
 
-__all__ = ["FOLLOWED", "POOLED", "Shape", "numbers_of", "shapes_of"]
-
 FOLLOWED = (
     "rms",
     "velocity",

@@ -12,8 +12,6 @@ from .._base.text import printable
 if TYPE_CHECKING:
     import plotly.graph_objects as go
 
-__all__ = ["Trend"]
-
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Trend:
