@@ -43,15 +43,23 @@ RATES = {"outer_race": ORDERS.bpfo, "inner_race": ORDERS.bpfi, "ball": 2.0 * ORD
 SIDEBANDS = {"outer_race": 0.0, "inner_race": 1.0, "ball": ORDERS.ftf}
 
 
-def blows(order: float, side: float = 0.0, *, seed: int = 1, duration: float = 2.0) -> Signal:
+def blows(
+    order: float,
+    side: float = 0.0,
+    *,
+    seed: int = 1,
+    duration: float = 2.0,
+    swell: float = 0.8,
+    off: float = 0.005,
+) -> Signal:
     """Return blows at an order that ring at 3 kHz, swelling at another, their times off by 0.5 %."""
     rng = np.random.default_rng(seed)
     x = np.zeros(round(duration * FS))
     period = 1.0 / (order * SHAFT)
     times = np.arange(0.0, duration, period)
-    times = times + 0.005 * period * rng.normal(size=times.size)
+    times = times + off * period * rng.normal(size=times.size)
     at = np.clip(np.rint(times * FS).astype(int), 0, x.size - 1)
-    np.add.at(x, at, 1.0 + 0.8 * (side > 0.0) * np.cos(2 * np.pi * side * SHAFT * times))
+    np.add.at(x, at, 1.0 + swell * (side > 0.0) * np.cos(2 * np.pi * side * SHAFT * times))
     t = np.arange(200) / FS
     ringing = np.exp(-800.0 * t) * np.sin(2 * np.pi * 3000.0 * t)
     return np.convolve(x, ringing)[: x.size]
@@ -433,6 +441,17 @@ def test_one_cage_slips_for_all_parts(part: str, slip: float) -> None:
         one = found.evidence[name]  # type: ignore[index]
         assert one.factor * one.order == pytest.approx(order, rel=3e-3)
     assert found.evidence["cage"].factor == pytest.approx(slip, abs=4e-3)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_race_at_the_speed_of_a_cage_that_rolls_comes_first(seed: int) -> None:
+    """Blows of an inner race that swell twice a turn have lines at BPFI - 2 f_r, 0.957 BPFO of a 6222."""
+    orders = br.catalogue["6222"].orders
+    order = orders.bpfi - 0.005 * orders.bpfo
+    assert (order - 2.0) / orders.bpfo == pytest.approx(0.957, abs=1e-3)
+    x = noise(blows(order, 2.0, seed=seed, swell=1.5, off=0.003), 0.2, seed)
+    found = judged(x, "6222", speed_within=1e-3)
+    assert found.parts == ("inner_race",)
 
 
 def test_what_is_at_the_end_of_a_search_is_not_found() -> None:
