@@ -162,6 +162,14 @@ def test_lines_of_one_formula_are_a_row_and_a_count() -> None:
     assert len(re.findall(r": line at order [\d.]+, Hz \|", page)) == 1
 
 
+def test_guide_and_changelog_stay_readable() -> None:
+    """At most 24 000 words without blocks of code, and twelve kilobytes."""
+    block = re.compile(r"^```.*?^```", flags=re.DOTALL | re.MULTILINE)
+    pages = [block.sub("", page.read_text(encoding="utf-8")) for page in GUIDE.glob("*.md")]
+    assert sum(len(page.split()) for page in pages) <= 24_000
+    assert (ROOT / "CHANGELOG.md").stat().st_size <= 12_288
+
+
 def test_what_pages_link_to_is_there() -> None:
     """Pages and pictures; the build looks at the anchors of the guide's own."""
     for page in [ROOT / "README.md", *GUIDE.glob("*.md")]:
