@@ -346,7 +346,7 @@ def test_a_patch_of_a_ball_that_spins_freely_is_refused() -> None:
     patch = s.Defect(on="ball", ball=0, angle=0.0, length=1e-3, width=1e-3, edge_radius=3e-4)
     scene = br.presets.deep_groove_6205().replace({"defects.patch": patch})
     with pytest.raises(
-        br.SceneError, match=r'defects\.patch\.shape = absent: "cap", "pit" or "dent" for a ball'
+        br.SceneError, match=r'defects\.patch\.shape = "patch": "cap", "pit" or "dent" for a ball'
     ):
         scene.replace({"spin": "free"})
 

@@ -45,7 +45,7 @@ fn surface(scene: &Scene, path: &str, row: &Row, defect: &Defect) -> Result<()> 
             if scene.balls_turn() && defect.damage.is_patch() {
                 let word = defect.damage.word();
                 let allowed = format!(
-                    r#"one that has no length along the axis on a ball that spins freely, such as "cap", "pit" or "dent"; a {word} has"#
+                    r#""cap", "pit" or "dent" for a ball that spins freely: a {word} has its length along the axis"#
                 );
                 Err(Error::scene(at("shape"), format!("{word:?}"), allowed))
             } else if defect.damage.is_of_balls() {
