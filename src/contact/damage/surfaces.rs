@@ -162,12 +162,14 @@ impl Facing<'_> {
             self.surface(node, &race, visit);
             return;
         };
-        let [first, second] = [arc.low, arc.high].map(|edge| self.ring_circle(node, &edge, 0.0));
+        // One by one: large structs in arrays are copied where the compiler does not take their maps apart.
+        let first = self.ring_circle(node, &arc.low, 0.0);
+        let second = self.ring_circle(node, &arc.high, 0.0);
         let drops = [race.s - first.s, race.s - second.s];
         let both = drops[0] + drops[1];
-        for (edge, drop) in [first, second].into_iter().zip(drops) {
+        for (edge, drop) in [(&first, drops[0]), (&second, drops[1])] {
             let drops = (drop, both);
-            self.surface(node, &RingSurface { drops, ..edge }, visit);
+            self.surface(node, &RingSurface { drops, ..*edge }, visit);
         }
         let drops = (both, D::NEVER);
         self.surface(node, &RingSurface { drops, ..race }, visit);
