@@ -35,7 +35,7 @@ fn with(change: impl FnOnce(&mut Scene)) -> Scene {
     scene
 }
 
-/// The same with rings that may tilt.
+/// Scene with rings that may tilt, else as given.
 fn tilting(mut scene: Scene) -> Scene {
     for ring in [&mut scene.outer_ring, &mut scene.inner_ring] {
         let free = || Some(Mount::Free);
@@ -169,7 +169,7 @@ fn stirred(model: &Model, in_plane: bool) -> Vec<f64> {
     y
 }
 
-/// What a force adds in a state: on all bodies, and as moments on rings that may tilt.
+/// Forces and moments that a force adds in a state: on all bodies, and as moments on rings that may tilt.
 struct Added {
     on: Table,
     moments: Option<[Vector3<f64>; 2]>,

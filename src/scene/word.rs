@@ -1,4 +1,5 @@
-//! Words that a document may have in place of a number, each read and written as itself.
+//! Words that a document may have in place of a number, each read and written as itself. Another word is refused by the enum that tries it,
+//! in the terms of all that it takes.
 
 /// Makes the module by which serde reads and writes a variant as one word.
 macro_rules! words {

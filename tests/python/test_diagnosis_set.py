@@ -93,8 +93,8 @@ def test_some_runs_of_the_set(module: ModuleType, tmp_path: Path) -> None:
 
 @pytest.mark.long
 def test_the_set(module: ModuleType, tmp_path: Path) -> None:
-    """Half of it, simulated anew: twenty minutes of two cores."""
-    rows = module.judged(module.SEED, 4, tmp_path)
+    """All of it, simulated anew: forty minutes of two cores."""
+    rows = module.judged(module.SEED, 8, tmp_path)
     module.write(rows, tmp_path / "judged.csv")
     for line in module.summary(rows):
         print("\n[verdict]", " | ".join(line))

@@ -165,7 +165,7 @@ pub(in crate::contact) mod tests {
         }
     }
 
-    /// Truth: the law's own energy, force and exponent, and Hertz's approach under a load, differentiated numerically.
+    /// Truth: the law's energy, differentiated numerically, and its exponent, by the force at twice the penetration.
     #[test]
     fn a_law_agrees_with_itself() {
         for elastic in laws(-1.0, 12e-3) {
