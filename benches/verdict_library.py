@@ -87,8 +87,9 @@ class Recorded:
 def recorded(of: Case, x: NDArray[np.float64], time_: int) -> Recorded:
     """Record a run on a machine by chance."""
     rng = np.random.default_rng([68, of.number, time_])
+    size = of.bearing.outside_diameter
     chains = br.measuring.random_chains(
-        1, seed=int(rng.integers(1 << 30)), outside_diameter=of.bearing.outside_diameter
+        1, seed=int(rng.integers(1 << 30)), outside_diameter=size, near=0.0
     )
     (chain,) = chains.values()
     near, weakened, narrowed, clipped, quiet = (float(rng.random()) for _ in range(5))

@@ -414,8 +414,8 @@ def test_walls_around_larger_bearings_are_heavier() -> None:
     assert m.random_housing(1).modes == small
     for one, other in zip(small, large, strict=True):
         assert other == replace(one, mass=4.0 * one.mass)
-    (chain,) = m.random_chains(1, seed=5, outside_diameter=0.104).values()
-    (usual,) = m.random_chains(1, seed=5).values()
+    (chain,) = m.random_chains(1, seed=5, outside_diameter=0.104, near=0.0).values()
+    (usual,) = m.random_chains(1, seed=5, near=0.0).values()
     assert isinstance(chain.path, br.Structure)
     assert isinstance(usual.path, br.Structure)
     assert chain.path.modes[0].mass == pytest.approx(4.0 * usual.path.modes[0].mass)
@@ -440,6 +440,15 @@ def test_chains_by_chance_begin_alike_whatever_their_number() -> None:
     few, many = m.random_chains(2, seed=5), m.random_chains(4, seed=5)
     assert [many[name] for name in few] == list(few.values())
     assert len({repr(chain) for chain in many.values()}) == 4
+
+
+def test_half_of_the_sensors_are_on_the_structure_of_the_run_and_all_else_stays() -> None:
+    drawn, far = m.random_chains(200, seed=5), m.random_chains(200, seed=5, near=0.0)
+    near = [name for name, chain in drawn.items() if chain.path is None]
+    assert 80 <= len(near) <= 120
+    assert all(chain.path is not None for chain in far.values())
+    assert all(replace(far[name], path=None) == drawn[name] for name in near)
+    assert all(far[name] == drawn[name] for name in drawn if name not in near)
 
 
 def test_a_floor_of_ones_own_leaves_lines_out() -> None:
@@ -486,6 +495,7 @@ def test_noise_that_wanders_is_slow_and_leaves_other_numbers_alone() -> None:
         (lambda: m.random_machine(1, background="97.mat"), "background"),  # type: ignore[arg-type]
         (lambda: m.random_machine(1, background=br.Channel(x=np.ones(9), fs=1e3)), "background"),
         (lambda: m.random_chains(0, seed=1), "n"),
+        (lambda: m.random_chains(1, seed=1, near=1.5), "near"),
         (lambda: m.random_chains(1, seed=1, outside_diameter=1e200), "outside_diameter"),
         (lambda: m.random_housing(1, outside_diameter=0.0), "outside_diameter"),
         (lambda: m.Logger(range=0.0), "logger.range"),

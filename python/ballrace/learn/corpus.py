@@ -5,7 +5,7 @@
     python -m ballrace.learn.corpus FOLDER --bearings 2000 --seed 1 --seconds 10 --fs 25600
 
 Each bearing is one of 6000 to 6316 with surfaces, balls, play and a machine of its own
-(:class:`ballrace.learn.Recipe`), one measuring chain (:func:`ballrace.measuring.random_chains`, a third of the
+(:class:`ballrace.learn.Recipe`), one measuring chain (:func:`ballrace.measuring.random_chains`, half of the
 sensors on the pedestal itself), and one state in four: healthy, or a fault of the outer race, the inner race or a
 ball. It is recorded under several loads and speeds. Of each sixteen bearings four are for testing, one in each
 state; a larger set has the same split.

@@ -25,8 +25,6 @@ _STATES = (None, *_FAULTS)
 BLOCK = 4 * len(_STATES)
 """Bearings that are split together."""
 _TESTED = 1.0 / len(_STATES)
-_NEAR = 1.0 / 3.0
-"""Share of sensors on the pedestal itself."""
 OWN = {
     "split": "train or test, by bearing",
     "radial_load": "load that presses the inner ring down, in N",
@@ -78,10 +76,8 @@ class Plan:
         size = self.drawing(number).recipe.made.outside_diameter
         chains = random_chains(1, seed=int(rng.integers(2**31)), outside_diameter=size)
         (drawn,) = chains.values()
-        near = rng.random() < _NEAR
-        logger = replace(drawn.logger or Logger(), fs=self.fs)
-        chain = replace(drawn, path=None if near else drawn.path, logger=logger)
-        return ("near" if near else "far"), chain
+        chain = replace(drawn, logger=replace(drawn.logger or Logger(), fs=self.fs))
+        return ("far" if chain.path else "near"), chain
 
     @cached_property
     def options(self) -> dict[str, Any]:

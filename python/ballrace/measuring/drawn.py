@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._base.libraries import scipy
-from .._base.numbers import counted
+from .._base.numbers import counted, real
 from ..bearings.pedestal import OF_6205
 from ..channel import Recorded
 from ..errors import SceneError
@@ -87,13 +87,19 @@ def random_machine(seed: int, *, background: Recorded | None = None) -> Machine:
 
 
 def random_chains(
-    n: int, *, seed: int, background: Recorded | None = None, outside_diameter: float = OF_6205
+    n: int,
+    *,
+    seed: int,
+    background: Recorded | None = None,
+    outside_diameter: float = OF_6205,
+    near: float = 0.5,
 ) -> dict[str, Chain]:
     """Return random measuring chains, each of another machine.
 
-    Each has a sensor within 30° of the vertical with a mounted resonance of 15 to 40 kHz, a path of
-    :func:`random_housing` with modes from 0.8 to 12 kHz, a machine of :func:`random_machine` and a logger of 12,
-    16 or 24 bits at the sampling rate of the signal.
+    Each has a sensor within 30° of the vertical with a mounted resonance of 15 to 40 kHz, a machine of
+    :func:`random_machine` and a logger of 12, 16 or 24 bits at the sampling rate of the signal. The sensor is on
+    the structure of the run, beside the bearing, or at the end of a path of :func:`random_housing` with modes from
+    0.8 to 12 kHz.
 
     Parameters
     ----------
@@ -105,6 +111,8 @@ def random_chains(
         Record of a healthy machine [m/s²], whose noise floor they have; by default that of a measured motor.
     outside_diameter : float
         Outside diameter of the bearing [m], for the masses of :func:`random_housing`; by default a 6205's.
+    near : float
+        Chance of a sensor on the structure of the run, 0 to 1.
 
     Raises
     ------
@@ -114,23 +122,30 @@ def random_chains(
     Examples
     --------
     >>> chains = random_chains(3, seed=1)
-    >>> list(chains), chains["machine 0"].stages
-    (['machine 0', 'machine 1', 'machine 2'], ('path', 'machine', 'sensor', 'logger'))
+    >>> list(chains), [chain.path is None for chain in chains.values()]
+    (['machine 0', 'machine 1', 'machine 2'], [True, False, False])
     """
     n, seed = counted("n", n, 1), counted("seed", seed, 0)
-    return {f"machine {k}": _chain([seed, k], background, outside_diameter) for k in range(n)}
+    if not 0.0 <= real(near) <= 1.0:
+        raise SceneError("near", repr(near), "a number, 0 to 1")
+    return {f"machine {k}": _chain([seed, k], background, outside_diameter, near) for k in range(n)}
 
 
-def _chain(key: list[int], background: Recorded | None, outside_diameter: float) -> Chain:
+def _chain(
+    key: list[int], background: Recorded | None, outside_diameter: float, near: float
+) -> Chain:
     rng = np.random.default_rng(key)
     path, machine = (int(number) for number in rng.integers(0, 2**31, 2))
     aside = rng.uniform(-math.pi / 6.0, math.pi / 6.0)
+    sensor = Sensor(resonance=float(log_uniform(rng, _RESONANCE, 1)[0]))
+    logger = Logger(bits=int(rng.choice([12, 16, 24])))
+    led = random_housing(path, band=_BAND, outside_diameter=outside_diameter)
     return Chain(
         direction=(math.sin(aside), math.cos(aside), 0.0),
-        path=random_housing(path, band=_BAND, outside_diameter=outside_diameter),
+        path=None if rng.random() < near else led,
         machine=random_machine(machine, background=background),
-        sensor=Sensor(resonance=float(log_uniform(rng, _RESONANCE, 1)[0])),
-        logger=Logger(bits=int(rng.choice([12, 16, 24]))),
+        sensor=sensor,
+        logger=logger,
     )
 
 
