@@ -123,12 +123,13 @@ def bridged(part: Part, without: str = "") -> tuple[float, float, float]:
 
 
 def strength() -> dict[str, float]:
-    """Return the strength that nine of ten spalls of the outer race exceed, over their width.
+    """Return the strength that nine of ten spalls of the outer race that show lines exceed, over their width.
 
     The decimal logarithm of a·D²/v is a line over that of the width in ball diameters.
     """
     rows = judged()
-    rows = rows[(rows["part"] == "outer_race") & (rows["edge"] > 0.0)]
+    shows = rows["accel_outer_race"] > 0.0
+    rows = rows[(rows["part"] == "outer_race") & (rows["edge"] > 0.0) & shows]
     width, size = np.log10(rows["width"]), np.log10(rows["accel_outer_race"])
     slope, constant = np.polyfit(width, size, 1)
     below = float(np.quantile(size - constant - slope * width, NINE_IN_TEN))
@@ -149,7 +150,7 @@ def main() -> None:
         "strength": strength(),
     }
     rounded = json.loads(json.dumps(fitted), parse_float=lambda text: float(f"{float(text):.7g}"))
-    FIT.write_text(json.dumps(rounded, indent=1) + "\n", encoding="utf-8")
+    FIT.write_text(json.dumps(rounded, indent=1, allow_nan=False) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -47,13 +47,13 @@ if TYPE_CHECKING:
 TABLE = Path(__file__).with_name("verdict_library.csv")
 JUDGED, SIZED = 3, 6
 FS = 51_200.0
-COUNT = 600
+COUNT = 620
 WEAKER, NEAR = 26.0, 0.2
 """Attenuation of the farthest sensor [dB]; share of records of a sensor on the pedestal itself."""
 QUIETER = 20.0
-"""How much less noise of the motor there is at most on a bearing that stands apart from it [dB]."""
-RIG = 3
-"""Every third record is as of a test rig: the sensor is on the pedestal, and the noise lower by as much again."""
+"""How much less of the motor there is at most on a bearing that stands apart from it [dB]."""
+RIG, OF_RIG = 3, (20.0, 60.0)
+"""Every third record is as of a test rig: the sensor on the pedestal, and so much less of the motor [dB]."""
 RATES = (12_000.0, 20_000.0, 25_600.0, 51_200.0)
 NARROWED, CLIPPED = 1 / 8, 1 / 12
 COLUMNS = ("seat.fx", "seat.fy", "seat.fz", "housing.sensor.ay")
@@ -94,7 +94,8 @@ def recorded(of: Case, x: NDArray[np.float64], time_: int) -> Recorded:
     (chain,) = chains.values()
     near, weakened, narrowed, clipped, quiet = (float(rng.random()) for _ in range(5))
     of_rig = time_ % RIG == RIG - 1
-    chain = replace(chain, machine=quieter(QUIETER * (quiet + of_rig), chain.machine))
+    least, most = OF_RIG if of_rig else (0.0, QUIETER)
+    chain = replace(chain, machine=quieter(least + (most - least) * quiet, chain.machine))
     fs = float(rng.choice(RATES))
     flat = log_uniform(rng, (1500.0, 0.4 * fs)) if narrowed < NARROWED else None
     of_record: dict[str, Any] = {"fs": FS, "shaft": of.rpm / 60.0, "seed": 100 * of.number + time_}
@@ -105,7 +106,7 @@ def recorded(of: Case, x: NDArray[np.float64], time_: int) -> Recorded:
         weaker, signal = WEAKER * weakened**2, x[:, :3]
         chain = replace(chain, path=weakened_by(weaker, chain.path))
     logger = replace(chain.logger, fs=fs, bandwidth=flat)
-    silent = replace(chain, machine=None, sensor=None, logger=replace(logger, bits=None))
+    silent = replace(chain, machine=None, logger=replace(logger, bits=None))
     own = br.measuring.chain.measured(signal, silent, **of_record).x
     found = br.measuring.chain.measured(signal, replace(chain, logger=logger), **of_record)
     if clipped < CLIPPED:
@@ -118,9 +119,12 @@ def recorded(of: Case, x: NDArray[np.float64], time_: int) -> Recorded:
 
 
 def quieter(decibels: float, machine: br.measuring.Machine) -> br.measuring.Machine:
-    """Return a machine with so much less noise."""
-    f, density = machine.noise_density
-    return replace(machine, noise_density=(f, np.multiply(density, 10.0 ** (-decibels / 10.0))))
+    """Return a machine with so much less of all that it adds."""
+    (f, density), less = machine.noise_density, 10.0 ** (-decibels / 20.0)
+    shaft, mains = (tuple(less * each for each in of) for of in (machine.shaft, machine.mains))
+    return replace(
+        machine, noise_density=(f, np.multiply(density, less**2)), shaft=shaft, mains=mains
+    )
 
 
 def weakened_by(decibels: float, path: br.Structure) -> br.Structure:
