@@ -337,10 +337,11 @@ z alone does not distinguish simulated records, since loaded healthy bearings ha
 likelihood ratio uses the record's unit. Four of these bearings were judged six times, the others twice,
 and the library was made anew in between.
 
-The guide counts seed 59 (6405, 6408, 6411, 61909, 16011, 61807, 16003, 16015), judged once by today's
-rules: 0 of 216 healthy records called damaged, 213 undecided; 142 of 216 damaged ones named (24, 22, 23,
-14, 17, 6, 15 and 21 of 27 a bearing), of one the outer race and a ball in place of the inner race (a
-61909), one called healthy (a 6408 at 0 dB).
+The guide counts seeds 59 (6405, 6408, 6411, 61909, 16011, 61807, 16003, 16015) and 60 (61906, 61913, 16006,
+16013), judged once by today's rules. 59: 0 of 216 healthy records called damaged, 213 undecided; 142 of 216
+damaged ones named (24, 22, 23, 14, 17, 6, 15 and 21 of 27 a bearing), of one the outer race and a ball in
+place of the inner race (a 61909), one called healthy (a 6408 at 0 dB). 60: 0 of 108, all undecided; 68 of
+108 named (17, 15, 16, 20), one called healthy (a ball of a 61913).
 
 Other sets found faults, or judged what came of them. 57 (16009, 6322), once: 13 of 54 healthy records
 were called damaged, all but one of them of the 6322 at the end of paths as light as a 6205's. With paths
