@@ -51,9 +51,9 @@ COUNT = 620
 WEAKER, NEAR = 26.0, 0.2
 """Attenuation of the farthest sensor [dB]; share of records of a sensor on the pedestal itself."""
 QUIETER = 20.0
-"""How much less of the motor there is at most on a bearing that stands apart from it [dB]."""
+"""Largest attenuation of a motor on a bearing that stands apart from it [dB]."""
 RIG, OF_RIG = 3, (20.0, 60.0)
-"""Every third record is as of a test rig: the sensor on the pedestal, and so much less of the motor [dB]."""
+"""Every third record is as of a test rig: the sensor on the pedestal, the motor so much weaker [dB]."""
 RATES = (12_000.0, 20_000.0, 25_600.0, 51_200.0)
 NARROWED, CLIPPED = 1 / 8, 1 / 12
 COLUMNS = ("seat.fx", "seat.fy", "seat.fz", "housing.sensor.ay")
@@ -94,8 +94,8 @@ def recorded(of: Case, x: NDArray[np.float64], time_: int) -> Recorded:
     (chain,) = chains.values()
     near, weakened, narrowed, clipped, quiet = (float(rng.random()) for _ in range(5))
     of_rig = time_ % RIG == RIG - 1
-    least, most = OF_RIG if of_rig else (0.0, QUIETER)
-    chain = replace(chain, machine=quieter(least + (most - least) * quiet, chain.machine))
+    low, high = OF_RIG if of_rig else (0.0, QUIETER)
+    chain = replace(chain, machine=quieter(low + (high - low) * quiet, chain.machine))
     fs = float(rng.choice(RATES))
     flat = log_uniform(rng, (1500.0, 0.4 * fs)) if narrowed < NARROWED else None
     of_record: dict[str, Any] = {"fs": FS, "shaft": of.rpm / 60.0, "seed": 100 * of.number + time_}

@@ -66,7 +66,7 @@ SETS = {
     45: ("6004", "6203", "6205", "6207", "6306", "6309", "6310", "6008"),
     44: ("6005", "6202", "6206", "6209", "6304", "6307", "6308", "6407"),
 }
-"""Bearings by the seed of a set.
+"""Bearings by the seed of a set, eight each, also where fewer were judged.
 
 Limits were chosen on 44 to 46; three healthy records of 47 that were accused showed that small bearings need a
 library that holds some. 48 was judged once, after that; 49 and 50 once: nine healthy records of 50 that were

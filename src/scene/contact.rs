@@ -150,7 +150,7 @@ impl NormalLaw {
         }
     }
 
-    /// Whether the law has the stiffness of steel whatever the moduli of the materials.
+    /// Steel by definition: whether the law has its stiffness, whatever the moduli of the materials.
     pub(super) fn is_of_steel(&self) -> bool {
         match self {
             Self::Iso16281 { .. } => *self == Self::iso16281(),

@@ -112,7 +112,8 @@ def random_chains(
     outside_diameter : float
         Outside diameter of the bearing [m], for the masses of :func:`random_housing`; by default a 6205's.
     near : float
-        Chance of a sensor on the structure of the run, 0 to 1.
+        Chance of a sensor on the structure of the run, 0 to 1. Take 0 for arrays of the force on its seat: without
+        a path an array is an acceleration.
 
     Raises
     ------
@@ -139,6 +140,7 @@ def _chain(
     aside = rng.uniform(-math.pi / 6.0, math.pi / 6.0)
     sensor = Sensor(resonance=float(log_uniform(rng, _RESONANCE, 1)[0]))
     logger = Logger(bits=int(rng.choice([12, 16, 24])))
+    # Drawn also where it is not taken, which checks the diameter.
     led = random_housing(path, band=_BAND, outside_diameter=outside_diameter)
     return Chain(
         direction=(math.sin(aside), math.cos(aside), 0.0),
