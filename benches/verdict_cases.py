@@ -14,9 +14,10 @@ width            0.015 to 0.4 ball diameters, logarithmic: from seeded holes to 
 dents            a quarter of damaged races, 0.015 to 0.12 ball diameters wide, but no wider than the contact
 load             four of five 1 to 15 % of the static rating, as catalogues recommend; the others 0.3 to 1 %, as
                  of idling machines
-slip             scatter of impacts as a recipe has it; and a cage that lags behind the orders that records are
-                 judged by, 0 to 4 %, mostly less than 1 %: makers' real dimensions, and balls that slide
+slip             scatter of impacts as a recipe has it, or less; and a cage that lags behind the orders that
+                 records are judged by, 0 to 4 %, mostly less than 1 %: makers' real dimensions, sliding balls
 surfaces         texture as a recipe has it, and waves of 5 to 200 nm
+rotor            unbalanced as a recipe has it
 machine          pedestals as a recipe has them; the sensor on it, or at the end of a path, as heavy as goes with
                  the bearing's size, 0 to 26 dB weaker, mostly less than 7 dB: sensors sit near what they watch
 other vibration  noise, tones and modulation of ``br.measuring.random_chains``, up to 20 dB quieter
@@ -42,6 +43,7 @@ from ballrace.learn.drawn import (
     slip_fields,
     structure_fields,
     texture_fields,
+    unbalance,
 )
 
 TURNS = 24
@@ -78,7 +80,7 @@ EDGES = (0.0025, 0.25)
 """Radii of edges in ball diameters: from those of wires and sparks, 20 µm in a 6205, to worn ones."""
 CUT, ACROSS = 0.5, 0.6
 """Share of spalls that reach across the contact, as cuts and old ones do, and their length in ball diameters."""
-SCATTER, LAG = (5e-4, br.learn.recipe.LARGEST_SLIP), 0.04
+SCATTER, LAG = (2e-3, br.learn.recipe.LARGEST_SLIP), 0.04
 
 
 @dataclass(frozen=True)
@@ -115,6 +117,9 @@ def case(number: int) -> Case:
         sizes.append(br.scene.defect.widest(defect) / bearing.ball_diameter)
         edges.append(getattr(defect, "edge_radius", 0.0) / bearing.ball_diameter)
     lag = LAG * float(rng.random()) ** 2
+    grade = log_uniform(rng, br.learn.recipe.GRADES)
+    rotor = unbalance(load * bearing.static_rating, rpm * math.pi / 30.0, grade, rng)
+    scene = scene.replace({"unbalances.rotor": rotor})
     return Case(
         number, bearing, parts, tuple(shapes), rpm, load, (*sizes, 0.0)[0], (*edges, 0.0)[0], lag, scene
     )  # fmt: skip

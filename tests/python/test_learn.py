@@ -64,8 +64,6 @@ def test_blows_raise_the_lines_of_their_part(part: str) -> None:
     assert max(heights, key=heights.__getitem__) == part
     assert heights[part] > noise[f"{part}.height"] + 3.0
     assert faulty[f"{part}.depth"] > 2.0 * noise[f"{part}.depth"]
-    assert faulty["kurtosis"] > 5.0
-    assert noise["kurtosis"] < 3.5
 
 
 def test_the_order_of_the_blows_is_the_highest_of_the_spectrum() -> None:
@@ -99,7 +97,7 @@ def test_a_run_and_its_measurement_are_records() -> None:
     out = br.simulate(br.bearing("6205", radial_load=500.0, speed_rpm=1800.0), duration=0.1)
     sensed = br.measure(out, logger=br.measuring.Logger(fs=12_000.0))
     found = br.learn.EnvelopeLines("6205").fit_transform([out, sensed])
-    assert found.shape == (2, 10)
+    assert found.shape == (2, 8)
     assert np.isfinite(found).all()
 
 

@@ -93,8 +93,8 @@ def test_a_record_is_judged_by_the_vote_of_its_pieces(model: br.learn.Diagnoser,
 
 def test_a_fault_without_lines_is_not_named() -> None:
     """A model that calls all but records full of lines an inner race's fault has nothing to go by in noise."""
-    X = np.vstack([np.full((20, 10), 9.0), np.zeros((80, 10))])
-    X[:20] += np.random.default_rng(1).normal(size=(20, 10))
+    X = np.vstack([np.full((20, 8), 9.0), np.zeros((80, 8))])
+    X[:20] += np.random.default_rng(1).normal(size=(20, 8))
     y = ["healthy"] * 20 + ["inner_race"] * 80
     model = br.learn.Diagnoser(turns=15.0, fs=FS).fit(X, y)
     found = model.diagnose(blows("none"), "6205", RPM, fs=FS)
@@ -199,7 +199,7 @@ def test_a_report_of_simulated_records_and_one_that_is_not(tmp_path: Any) -> Non
     tone = 30.0 * np.sin(2.0 * np.pi * 1234.0 * np.arange(12_000) / 12_000.0) + noise
     found = br.learn.domain_report(data, tone, fs=12_000.0, speed_rpm=3000.0, label="healthy")
     assert found.auc > 0.9
-    assert found.features.height == 10 + len(NAMES)
+    assert found.features.height == 8 + len(NAMES)
     for path, given in (("label", {"label": "cage"}), ("record", {"record": tone[:5000]})):
         asked = {"record": tone, "fs": 12_000.0, "speed_rpm": 3000.0} | given
         with pytest.raises(br.SceneError) as caught:

@@ -58,14 +58,14 @@ def test_as_many_records_of_each_class_grouped_by_bearing(data: br.learn.Simulat
 def test_features_are_32_bit_numbers_of_the_recipes_bearing(data: br.learn.Simulated) -> None:
     X, y, groups = data.features()
     assert X.dtype == np.float32
-    assert X.shape == (12, 10)
+    assert X.shape == (12, 8)
     assert (sorted(set(y)), sorted(set(groups))) == (
         ["healthy", "inner_race", "outer_race"],
         [0, 1],
     )
     named = br.learn.EnvelopeLines("6205").fit_transform(list(data.channels()))
     assert np.array_equal(named.astype(np.float32), X)
-    assert data.features(br.learn.EnvelopeLines(highest=5.0))[0].shape == (12, 59)
+    assert data.features(br.learn.EnvelopeLines(highest=5.0))[0].shape == (12, 57)
 
 
 def test_called_again_it_runs_only_what_is_missing(
@@ -146,10 +146,12 @@ def test_small_faults_are_pits_and_large_ones_spalls(kind: str) -> None:
 
 
 def test_what_is_left_out_of_a_recipe_is_not_drawn() -> None:
-    found = rows(None, surfaces="smooth", slip=None, clearance="C3", speed_rpm=1500.0)
-    assert {"rows[0].texture.seed", "rows[0].diameter_errors", "rows[0].clearance"}.isdisjoint(
-        found[0]
+    found = rows(
+        None, surfaces="smooth", slip=None, balance_grade=None, clearance="C3", speed_rpm=1500.0
     )
+    left_out = ("rows[0].texture.seed", "rows[0].diameter_errors", "rows[0].clearance")
+    assert set(left_out).isdisjoint(found[0])
+    assert "unbalances.rotor.moment" not in found[0]
     assert [row["drive.speed"] for row in found] == pytest.approx([50.0 * np.pi] * 40)
     scattered = rows(None)
     assert 0.0 <= min(row["rows[0].clearance"] for row in scattered) < 4e-6
@@ -161,6 +163,17 @@ def test_balls_are_as_unlike_as_the_slip_says() -> None:
     assert errors.std() == pytest.approx(6e-3 / 1.4e4, rel=0.15)
     assert max(row["cage.ring.pocket_clearance"] for row in rows(None, slip=6e-3)) < 0.1e-3
     assert min(row["cage.ring.pocket_clearance"] for row in rows(None, slip=0.02)) > 0.13e-3
+
+
+def test_a_rotor_as_heavy_as_the_load_is_balanced_to_its_grade() -> None:
+    """Truth: ISO 21940-11. Grade 6.3 at 1500 1/min takes a force of 0.0063 m/s · 157 rad/s / g of the weight."""
+    found = rows("outer", balance_grade=6.3, speed_rpm=1500.0)
+    for row in found:
+        force = row["unbalances.rotor.moment"] * row["drive.speed"] ** 2
+        assert force == pytest.approx(0.1009113 * row["loads.radial.force"], rel=1e-5)
+    assert np.ptp([row["unbalances.rotor.angle"] for row in found]) > 5.0
+    scenes = Drawing(br.learn.Recipe("6205"), 1).scenes
+    assert all(list(scene.unbalances) == ["rotor"] for scene in scenes.values())
 
 
 @pytest.mark.parametrize(
@@ -179,6 +192,7 @@ def test_balls_are_as_unlike_as_the_slip_says() -> None:
         ("surfaces", {"surfaces": "rough"}),
         ("slip", {"slip": (0.0, 0.01)}),
         ("slip", {"slip": 0.05}),
+        ("balance_grade", {"balance_grade": (0.0, 6.3)}),
     ],
 )
 def test_a_recipe_names_the_field_that_is_wrong(path: str, options: dict[str, Any]) -> None:

@@ -433,13 +433,35 @@ def test_machines_by_chance_repeat_by_their_seeds_and_hold_their_ranges() -> Non
         assert all(3e-3 <= a <= 1.0 for a in machine.shaft[:3])
         assert 20 <= np.count_nonzero(machine.shaft) <= 90
         assert 0.0 <= machine.wander <= 0.3
-        assert len(machine.modulation or ()) == 3
+        for most, a in zip((0.3, 0.2, 0.1), machine.modulation or (), strict=True):
+            assert 0.05 * most <= a <= most
 
 
 def test_chains_by_chance_begin_alike_whatever_their_number() -> None:
     few, many = m.random_chains(2, seed=5), m.random_chains(4, seed=5)
     assert [many[name] for name in few] == list(few.values())
     assert len({repr(chain) for chain in many.values()}) == 4
+
+
+def test_paths_by_chance_differ_in_their_number_of_modes_and_their_damping() -> None:
+    paths = [chain.path for chain in m.random_chains(30, seed=5, near=0.0).values()]
+    damped = [np.array([mode.damping for mode in path.modes]) for path in paths]  # type: ignore[union-attr]
+    assert {len(each) for each in damped} <= set(range(5, 41))
+    assert len({len(each) for each in damped}) > 15
+    assert all(0.01 < each.min() <= each.max() <= 2.0 * each.min() for each in damped)
+    assert max(each.max() for each in damped) > 0.07
+
+
+def test_many_modes_pass_as_much_on_as_few() -> None:
+    """Truth: independent modes add by their squares, so that √n times the mass makes up for n times as many."""
+    force = np.random.default_rng(1).normal(size=(8192, 3))
+    powers = []
+    for modes in (5, 80):
+        paths = [m.random_housing(seed, modes=modes, damping=(0.05, 0.05)) for seed in range(60)]
+        powers.append(
+            np.mean([br.measure(force, fs=51_200.0, path=path).x.var() for path in paths])
+        )
+    assert powers[1] == pytest.approx(powers[0], rel=0.3)
 
 
 def test_half_of_the_sensors_are_on_the_structure_of_the_run_and_all_else_stays() -> None:

@@ -152,7 +152,8 @@ def width_of_arc(part: Part, arc: float, ball: float, why: str) -> Width:
             "of a narrow cut or the ringing of one event, as well as a spall's"
         )
         return Width(part=part, value=None, interval=None, spacing=arc, why=why)
-    low, middle, high = (arc + bridge * ball for bridge in fit()["bridge"][part])
+    # A spall may be narrower than its arc, but is no narrower than nothing.
+    low, middle, high = (max(arc + bridge * ball, 0.0) for bridge in fit()["bridge"][part])
     why = (
         f"{why}; simulated spalls with rounded edges, deeper than the balls sink, are {1e3 * low:.2f} to "
         f"{1e3 * high:.2f} mm wide where it does, and the interval assumes that shape"

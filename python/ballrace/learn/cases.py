@@ -11,7 +11,7 @@ import numpy as np
 
 from .. import defects
 from ..bearings import bearing
-from ..scene import SeatProbe, StructureProbe, Texture
+from ..scene import SeatProbe, StructureProbe, Texture, Unbalance
 from .drawn import (
     fault_fields,
     is_small,
@@ -19,6 +19,7 @@ from .drawn import (
     slip_fields,
     structure_fields,
     texture_fields,
+    unbalance,
 )
 from .recipe import SURFACES, Recipe, ends_of
 
@@ -50,6 +51,8 @@ class Drawing:
             texture=rough if recipe.surfaces == "as_made" else None,
         )
         healthy = replace(healthy, probes={"housing": StructureProbe(), "seat": SeatProbe()})
+        if recipe.balance_grade is not None:
+            healthy = replace(healthy, unbalances={"rotor": Unbalance(ring="inner", moment=0.0)})
         found = {"healthy": healthy}
         for kind in recipe.faults:
             for shape, defect in _shapes(SURFACES[kind], 1e3 * recipe.made.ball_diameter).items():
@@ -105,10 +108,18 @@ class Drawing:
 
     def _operation(self, rng: np.random.Generator) -> dict[str, Any]:
         """Return speed and loads of a case."""
-        return {
-            "drive.speed": float(rng.uniform(*self.recipe.speed)) * math.pi / 30.0,
-            "loads.radial.force": float(rng.uniform(*self.recipe.radial)),
-            "loads.axial.force": float(rng.uniform(*self.recipe.axial)),
+        recipe = self.recipe
+        drawn = {
+            "drive.speed": float(rng.uniform(*recipe.speed)) * math.pi / 30.0,
+            "loads.radial.force": float(rng.uniform(*recipe.radial)),
+            "loads.axial.force": float(rng.uniform(*recipe.axial)),
+        }
+        if recipe.balance_grade is None:
+            return drawn
+        grade, load = log_uniform(rng, ends_of(recipe.balance_grade)), drawn["loads.radial.force"]
+        rotor = unbalance(load, drawn["drive.speed"], grade, rng)
+        return drawn | {
+            f"unbalances.rotor.{name}": getattr(rotor, name) for name in ("moment", "angle")
         }
 
     def _fault(

@@ -5,7 +5,9 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+from .._base.units import GRAVITY
 from ..errors import SceneError
+from ..scene import Unbalance
 from ..statics import equilibrium
 
 if TYPE_CHECKING:
@@ -72,6 +74,13 @@ def structure_fields(structure: Structure, rng: np.random.Generator) -> dict[str
         }
         drawn |= {f"structure.modes[{k}].{name}": value for name, value in own.items()}
     return drawn
+
+
+def unbalance(load: float, speed: float, grade: float, rng: np.random.Generator) -> Unbalance:
+    """Return the unbalance of a rotor as heavy as a load [N] at a speed [rad/s], for a balance grade [mm/s]."""
+    # A grade is eccentricity times speed (ISO 21940-11).
+    moment = load / GRAVITY * 1e-3 * grade / speed
+    return Unbalance(ring="inner", moment=moment, angle=float(rng.uniform(0.0, 2.0 * math.pi)))
 
 
 def texture_fields(bearing: Bearing, rng: np.random.Generator) -> dict[str, Any]:

@@ -25,18 +25,17 @@ _checks = needed("sklearn.utils.validation", "ballrace.learn", extra="learn")
 
 
 class EnvelopeLines(_base.TransformerMixin, _base.BaseEstimator):  # type: ignore[misc, name-defined]
-    """Heights of the envelope lines of each fault, with moments and, on request, the envelope's orders.
+    """Heights and depths of the envelope lines of each fault and, on request, the envelope's orders.
 
     A transformer of scikit-learn's conventions. All features are ratios or levels in decibels, at orders of the
     shaft: they change neither with the unit nor, as far as an envelope can be free of it, with the housing and the
-    sensor, and are the same quantities of simulated and measured records.
+    sensor, and are the same quantities of simulated and measured records. Kurtosis and crest factor are not among
+    them: simulated impacts have half of the measured ones' (the guide, Transfer).
 
     ====================  =====================================================================================
     ``<part>.height``     mean level of a fault's lines over the running median beside them, the largest over
                           bands and a common factor of 0.985 to 1.015 [dB]
     ``<part>.depth``      largest depth of modulation of a band at the rate of those lines
-    ``kurtosis``          largest kurtosis of a band
-    ``crest_factor``      largest crest factor of a band
     ``order <o>``         highest level within a step of the envelope's orders, a mean over bands [dB]
     ====================  =====================================================================================
 
@@ -72,7 +71,7 @@ class EnvelopeLines(_base.TransformerMixin, _base.BaseEstimator):  # type: ignor
     >>> noise = np.random.default_rng(1).normal(size=(3, 12_000))
     >>> lines = EnvelopeLines("6205", fs=12_000.0, speed_rpm=1797.0)
     >>> lines.fit_transform(noise).shape, lines.get_feature_names_out()[0]
-    ((3, 10), 'outer_race.height')
+    ((3, 8), 'outer_race.height')
     """
 
     def __init__(

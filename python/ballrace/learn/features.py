@@ -28,7 +28,7 @@ def names_of(orders: NDArray[np.float64]) -> list[str]:
     """Return the names of the features."""
     heights = [f"{part}.height" for part in PARTS]
     depths = [f"{part}.depth" for part in PARTS]
-    return [*heights, *depths, "kurtosis", "crest_factor", *(f"order {o:.6g}" for o in orders)]
+    return [*heights, *depths, *(f"order {o:.6g}" for o in orders)]
 
 
 def features_of(
@@ -65,9 +65,7 @@ def features_of(
         rate = comb.order * factor * shaft
         heights.append(float(found.max()))
         depths.append(max(envelopes.depths(band, rate)[0] for band in range(len(bands))))
-    each = range(len(bands))
-    moments = [max(map(envelopes.kurtosis, each)), max(map(envelopes.crest_factor, each))]
-    return np.array([*heights, *depths, *moments, *_spectrum(levels, shaft, orders)])
+    return np.array([*heights, *depths, *_spectrum(levels, shaft, orders)])
 
 
 def _spectrum(levels: Levels, shaft: float, orders: NDArray[np.float64]) -> NDArray[np.float64]:

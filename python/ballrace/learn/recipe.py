@@ -28,6 +28,9 @@ SURFACES: dict[str, Surface] = {"outer": "outer_race", "inner": "inner_race", "b
 LARGEST_SLIP = 0.02
 """Scatter that balls of 1.4 µm of scatter make in 0.7 mm of play: none that are sold are that unlike."""
 
+GRADES = (1.0, 16.0)
+"""Balance quality grades, from grinding machines to shafts of cars [mm/s] (ISO 21940-11)."""
+
 _Surfaces = Literal["as_made", "smooth"]
 
 _FAULTS = {"outer": (0.15, 3.0), "inner": (0.15, 3.0), "ball": (0.2, 2.0)}
@@ -37,9 +40,9 @@ _FAULTS = {"outer": (0.15, 3.0), "inner": (0.15, 3.0), "ball": (0.2, 2.0)}
 class Recipe:
     """Ranges from which each simulated bearing of a training set is drawn.
 
-    A range is a pair of numbers, between which each case draws its own, uniformly, fault sizes and slip on a
-    logarithmic scale; one number is the same for all. The guide gives the sources of the defaults and the fixed
-    ranges (`From a campaign to a trained model`).
+    A range is a pair of numbers, between which each case draws its own, uniformly; fault sizes, slip and balance
+    grade on a logarithmic scale; one number is the same for all. The guide gives the sources of the defaults and
+    the fixed ranges (`From a campaign to a trained model`).
 
     Attributes
     ----------
@@ -64,7 +67,12 @@ class Recipe:
         Scatter of the balls' spacing: standard deviation of the times between impacts of a fault on the outer
         race, over their mean, up to 0.02. It is produced by balls of different diameters in a cage with play: for
         5e-3 in a 6205, a standard deviation of 0.36 µm, less than that of balls of grade 10 (ISO 3290-1), and a
-        play of 0.08 to 0.2 mm. Record 130 has 7e-3. None: equal balls in the scene's cage.
+        play of 0.08 to 0.2 mm. Record 130 has 7e-3; R. B. Randall and J. Antoni give 0.01 to 0.02
+        (Mech. Syst. Signal Process. 25 (2011) 485). None: equal balls in the scene's cage.
+    balance_grade : float, pair of float or None
+        Balance quality grade of the rotor, 0.01 to 1000 [mm/s]: its unbalance, as of a mass as heavy as the radial
+        load, turns with the inner ring (ISO 21940-11: grinding machines 1, pumps and fans 6.3, shafts of cars 16).
+        None: balanced.
 
     Raises
     ------
@@ -86,7 +94,8 @@ class Recipe:
     clearance: str | float = "scatter"
     faults: Mapping[str, tuple[float, float]] = field(default_factory=_FAULTS.copy)
     surfaces: _Surfaces = "as_made"
-    slip: Range | None = (1e-3, 6e-3)
+    slip: Range | None = (5e-3, 2e-2)
+    balance_grade: Range | None = GRADES
 
     def __post_init__(self) -> None:
         made = self.made
@@ -97,6 +106,8 @@ class Recipe:
         _checked("axial_load", self.axial, -made.static_rating, made.static_rating, "N")
         if self.slip is not None:
             _checked("slip", self.slip, 1e-5, LARGEST_SLIP, "1")
+        if self.balance_grade is not None:
+            _checked("balance_grade", self.balance_grade, 0.01, 1000.0, "mm/s")
         if self.surfaces not in get_args(_Surfaces):
             raise SceneError("surfaces", repr(self.surfaces), '"as_made" or "smooth"')
         self._check_clearance()

@@ -31,14 +31,17 @@ _MAINS = (2e-3, 0.2)
 """Amplitudes of the mains' multiples [m/s²]; record 97 has 0.003 to 0.14 at those of 60 Hz."""
 _WEAK_ORDERS, _WEAK_SHARE = 240, 0.2
 """Orders of the shaft up to which weak lines stand in the floor, and the share of them that do."""
-_WEAK = (0.5, 5.0)
-"""Amplitude of a weak line over the root mean square of the floor in a band of 1 Hz at 1 kHz."""
-_SWELLING = (0.3, 0.2, 0.1)
-"""Largest modulation by the shaft's orders 1 to 3; record 97 has 0.1 and 0.05, poorer machines more."""
+_WEAK = (0.5, 50.0)
+"""Amplitude of a weak line over the root mean square of the floor in a band of 1 Hz at 1 kHz.
+
+Of the orders of record 97 and of the healthy ones of HIT-SM a tenth is above 2.5 to 12, a hundredth above 8 to 52.
+"""
+_SWELLING, _CALMEST = (0.3, 0.2, 0.1), 0.05
+"""Largest modulation by the shaft's orders 1 to 3, and the smallest over it; record 97 has 0.1 and 0.05."""
 _WANDER = 0.3
 """Largest wander of the noise."""
-_BAND = (800.0, 12_000.0)
-"""Modes of paths [Hz]."""
+_BAND, _MODES, _DAMPING = (800.0, 12_000.0), (5.0, 40.0), (0.015, 0.06)
+"""Modes of paths [Hz], their number, and their damping in the middle of a path's own octave."""
 _RESONANCE = (15_000.0, 40_000.0)
 """Mounted resonance of sensors [Hz]: from glued on to screwed down."""
 
@@ -49,8 +52,8 @@ def random_machine(seed: int, *, background: Recorded | None = None) -> Machine:
     The noise has the shape of a measured floor with a random slope, at 1/100 to 100 times the density of the quiet
     motor of record 97; or the floor of ``background`` at half to twice its density. The shaft has strong orders 1
     to 3 and a fifth of the others up to 240 as weak lines, as from real surfaces, couplings and motors; the mains
-    have six multiples of 50 or 60 Hz. Shaft orders 1 to 3 modulate the noise by up to 0.3, 0.2 and 0.1, and it
-    wanders by up to 0.3. Levels are uniform on a logarithmic scale.
+    have six multiples of 50 or 60 Hz. Shaft orders 1 to 3 modulate the noise by up to 0.3, 0.2 and 0.1, down to
+    a twentieth of that. Levels are uniform on a logarithmic scale; the noise wanders by up to 0.3.
 
     Parameters
     ----------
@@ -81,7 +84,7 @@ def random_machine(seed: int, *, background: Recorded | None = None) -> Machine:
         mains=tuple((log_uniform(rng, _MAINS, 6) * rng.integers(0, 2, 6)).tolist()),
         mains_frequency=float(rng.choice([50.0, 60.0])),
         noise_density=(f, density),
-        modulation=tuple((np.array(_SWELLING) * rng.random(3)).tolist()),
+        modulation=tuple((np.array(_SWELLING) * log_uniform(rng, (_CALMEST, 1.0), 3)).tolist()),
         wander=float(_WANDER * rng.random()),
     )
 
@@ -98,8 +101,8 @@ def random_chains(
 
     Each has a sensor within 30° of the vertical with a mounted resonance of 15 to 40 kHz, a machine of
     :func:`random_machine` and a logger of 12, 16 or 24 bits at the sampling rate of the signal. The sensor is on
-    the structure of the run, beside the bearing, or at the end of a path of :func:`random_housing` with modes from
-    0.8 to 12 kHz.
+    the structure of the run, beside the bearing, or at the end of a path of :func:`random_housing` with 5 to 40
+    modes from 0.8 to 12 kHz, damped by 1 to 8 %, all alike within an octave.
 
     Parameters
     ----------
@@ -140,11 +143,19 @@ def _chain(
     aside = rng.uniform(-math.pi / 6.0, math.pi / 6.0)
     sensor = Sensor(resonance=float(log_uniform(rng, _RESONANCE, 1)[0]))
     logger = Logger(bits=int(rng.choice([12, 16, 24])))
+    is_near = rng.random() < near
+    damped = float(log_uniform(rng, _DAMPING, 1)[0])
     # Drawn also where it is not taken, which checks the diameter.
-    led = random_housing(path, band=_BAND, outside_diameter=outside_diameter)
+    led = random_housing(
+        path,
+        modes=round(float(log_uniform(rng, _MODES, 1)[0])),
+        band=_BAND,
+        damping=(damped / math.sqrt(2.0), damped * math.sqrt(2.0)),
+        outside_diameter=outside_diameter,
+    )
     return Chain(
         direction=(math.sin(aside), math.cos(aside), 0.0),
-        path=None if rng.random() < near else led,
+        path=None if is_near else led,
         machine=random_machine(machine, background=background),
         sensor=sensor,
         logger=logger,

@@ -166,7 +166,9 @@ def through(
 
 
 _MASS = 1.32
-"""Modal mass at 1 kHz [kg], which falls with the frequency, as of the walls of the pedestal."""
+"""Modal mass at 1 kHz of each of a few modes [kg], which falls with the frequency, as of the pedestal's walls."""
+_WALLS = 5
+"""How many modes that is the mass of."""
 _SIZES = 1e-3, 10.0
 """Outside diameters of bearings that are taken [m]."""
 _SEAT, _SENSOR = 0.005, 90.0
@@ -176,16 +178,17 @@ _SEAT, _SENSOR = 0.005, 90.0
 def random_housing(
     seed: int,
     *,
-    modes: int = 5,
+    modes: int = 20,
     band: tuple[float, float] = (800.0, 12_000.0),
-    damping: tuple[float, float] = (0.01, 0.05),
+    damping: tuple[float, float] = (0.01, 0.08),
     outside_diameter: float = OF_6205,
 ) -> Structure:
     """Return a path from the seat to a sensor elsewhere on a machine, by modes drawn at random, for data sets.
 
     Frequencies and damping ratios are uniform on a logarithmic scale. Seat and sensor move along directions of
-    their own in each mode, the sensor with a normal amplitude; modal masses are as of the pedestal's walls. It is
-    driven by the force on the seat in a run, and acts back on nothing: the seat moves little.
+    their own in each mode, the sensor with a normal amplitude; modal masses are as of the pedestal's walls, and
+    grow with the root of the number of modes, so that many modes pass as much as few. It is driven by the force on
+    the seat in a run, and acts back on nothing: the seat moves little.
 
     Parameters
     ----------
@@ -209,14 +212,14 @@ def random_housing(
     Examples
     --------
     >>> random_housing(7) == random_housing(7), len(random_housing(7).modes)
-    (True, 5)
+    (True, 20)
     """
     modes = counted("modes", modes, 1)
     diameter = real(outside_diameter)
     if not _SIZES[0] <= diameter <= _SIZES[1]:
         allowed = f"a diameter, {_SIZES[0]:g} to {_SIZES[1]:g} [m]"
         raise SceneError("outside_diameter", repr(outside_diameter), allowed)
-    mass = _MASS * (diameter / OF_6205) ** 2
+    mass = _MASS * (diameter / OF_6205) ** 2 * math.sqrt(modes / _WALLS)
     for name, pair in (("band", band), ("damping", damping)):
         if not 0.0 < pair[0] <= pair[1] < math.inf:
             raise SceneError(name, str(pair), "two rising numbers above 0")
