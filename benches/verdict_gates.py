@@ -86,7 +86,7 @@ GATES = (
     Gate(name="impacts stand out", constants=((strength, "_SMOOTH", 0.0),)),
     Gate(name="not tiny", constants=((verdict, "_TINY", 0.0), (verdict, "_TINY_LOOSE", ()))),
     Gate(name="limits where balls fall", constants=((verdict, "_TINY_LOOSE", ()),)),
-    Gate(name="limits of small bearings", constants=((verdict, "_MINIATURE", 1.0),)),
+    Gate(name="limits beyond the sizes", constants=((verdict, "_BEYOND", 1.0),)),
     Gate(name="limits of what rings", constants=((verdict, "_RINGING", 1.0),)),
     Gate(name="falling balls without a unit", changed=lambda asked: asked | {"falls": False}),
     Gate(name="one race's lines beside the other's", constants=((verdict, "_BESIDE", 0.0),)),

@@ -19,6 +19,7 @@ import ballrace as br
 from ballrace.diagnosis.bursts import Bursts
 from ballrace.diagnosis.drift import without_drift
 from ballrace.diagnosis.lacking import unexplained
+from ballrace.diagnosis.likelihood import at_any_size
 from ballrace.diagnosis.null import largest_z, null_orders, probability
 from ballrace.diagnosis.severity import zone_of
 from ballrace.diagnosis.upper import upper_edge
@@ -785,3 +786,13 @@ def test_a_turn_far_longer_than_the_record_leaves_all_open(rpm: float) -> None:
 def test_a_speed_that_is_none_in_hertz_is_refused() -> None:
     with pytest.raises(br.SceneError, match="speed_rpm = 1e-322"):
         br.diagnose(np.ones(5000), "6205", 1e-322, fs=5000.0)
+
+
+@pytest.mark.parametrize("name", ["608", "6205", "6316", "6324"])
+def test_beyond_the_sizes_of_the_library_limits_are_three_times_as_high(name: str) -> None:
+    one = judged(noise(blows(ORDERS.bpfo), 0.1)).evidence["outer_race"]
+    size = Size(diameter=br.catalogue[name].pitch_diameter, rate=SHAFT, pressed=10.0)
+    for strength, tiny in ((0.9e-3, True), (2.9e-3, name in {"608", "6324"}), (3.1e-3, False)):
+        a = strength / at_any_size(1.0, size.diameter, SHAFT)
+        is_that = replace(one, strength=replace(one.strength, acceleration=a, impulsive=a))
+        assert size.is_tiny(is_that) is tiny
