@@ -172,6 +172,10 @@ def test_a_rotor_as_heavy_as_the_load_is_balanced_to_its_grade() -> None:
         force = row["unbalances.rotor.moment"] * row["drive.speed"] ** 2
         assert force == pytest.approx(0.1009113 * row["loads.radial.force"], rel=1e-5)
     assert np.ptp([row["unbalances.rotor.angle"] for row in found]) > 5.0
+    fast = rows("outer", balance_grade=16.0, speed_rpm=10_000.0, radial_load=(2000.0, 4000.0))
+    for row in fast:
+        force = row["unbalances.rotor.moment"] * row["drive.speed"] ** 2
+        assert force == pytest.approx(2.0 / 3.0 * row["loads.radial.force"])
     scenes = Drawing(br.learn.Recipe("6205"), 1).scenes
     assert all(list(scene.unbalances) == ["rotor"] for scene in scenes.values())
 

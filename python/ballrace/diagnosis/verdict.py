@@ -78,9 +78,9 @@ lines have 0.8 of the limits of strength.
 _BEYOND = 3.0
 """Factor on the limits of strength for sizes that the library does not have.
 
-Rings that light are shaken more: of 81 healthy records of a 606, a 628 and a 635 six are above the limits of the
-library's sizes, up to 2.7 times; of 81 of a 6417, a 6324 and a 6418 eight, up to 2.5 times, while no damage of a
-race of these has less than 22 times the limit (``benches/verdict_set.py --seed 58`` and ``61``).
+Light rings are shaken more: of 81 healthy records of a 606, a 628 and a 635 six are above the limits of the
+library's sizes, up to 2.7 times. So are eight of 81 of a 6417, a 6324 and a 6418, up to 2.5 times, while no damage
+of a race of these has less than 21 times the limit (``benches/verdict_set.py --seed 58`` and ``61``).
 """
 
 _STRUCK = 0.5

@@ -44,6 +44,9 @@ _LENGTH = 0.6
 _AROUND = 0.7
 """Largest angle of a fault of the outer race from the middle of the load zone [rad]."""
 
+_ROTATING = 2.0 / 3.0
+"""Largest force of an unbalance over the load."""
+
 _MASS = (0.5, 4.0)
 """Masses of the machine over those of a pedestal."""
 _FREQUENCY, _APART = (0.6, 1.6), (0.8, 1.25)
@@ -77,9 +80,12 @@ def structure_fields(structure: Structure, rng: np.random.Generator) -> dict[str
 
 
 def unbalance(load: float, speed: float, grade: float, rng: np.random.Generator) -> Unbalance:
-    """Return the unbalance of a rotor as heavy as a load [N] at a speed [rad/s], for a balance grade [mm/s]."""
+    """Return the unbalance of a rotor as heavy as a load [N] at a speed [rad/s], for a balance grade [mm/s].
+
+    Its force is at most two thirds of the load, whatever the grade: rotors that fast are balanced better.
+    """
     # A grade is eccentricity times speed (ISO 21940-11).
-    moment = load / GRAVITY * 1e-3 * grade / speed
+    moment = load / GRAVITY * min(1e-3 * grade / speed, _ROTATING * GRAVITY / speed**2)
     return Unbalance(ring="inner", moment=moment, angle=float(rng.uniform(0.0, 2.0 * math.pi)))
 
 

@@ -68,11 +68,12 @@ class Recipe:
         race, over their mean, up to 0.02. It is produced by balls of different diameters in a cage with play: for
         5e-3 in a 6205, a standard deviation of 0.36 µm, less than that of balls of grade 10 (ISO 3290-1), and a
         play of 0.08 to 0.2 mm. Record 130 has 7e-3; R. B. Randall and J. Antoni give 0.01 to 0.02
-        (Mech. Syst. Signal Process. 25 (2011) 485). None: equal balls in the scene's cage.
+        (Mech. Syst. Signal Process. 25 (2011) 485): beyond 6e-3 unequal balls stand for all that makes times
+        uneven. None: equal balls in the scene's cage.
     balance_grade : float, pair of float or None
         Balance quality grade of the rotor, 0.01 to 1000 [mm/s]: its unbalance, as of a mass as heavy as the radial
-        load, turns with the inner ring (ISO 21940-11: grinding machines 1, pumps and fans 6.3, shafts of cars 16).
-        None: balanced.
+        load, turns with the inner ring (ISO 21940-11: grinding machines 1, pumps and fans 6.3, shafts of cars 16),
+        with at most two thirds of that load. None: balanced.
 
     Raises
     ------

@@ -168,7 +168,7 @@ def through(
 _MASS = 1.32
 """Modal mass at 1 kHz of each of a few modes [kg], which falls with the frequency, as of the pedestal's walls."""
 _WALLS = 5
-"""How many modes that is the mass of."""
+"""Number of modes of those walls."""
 _SIZES = 1e-3, 10.0
 """Outside diameters of bearings that are taken [m]."""
 _SEAT, _SENSOR = 0.005, 90.0
