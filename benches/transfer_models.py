@@ -30,7 +30,8 @@ MACHINES = 60
 STANDARD_GRAVITY = 9.80665
 
 LOADS: dict[str, Any] = {"radial_load": (100.0, 800.0), "axial_load": (-150.0, 150.0)}
-SPEED = (1200.0, 1800.0)
+SPEED, WINDOW = (800.0, 1800.0), 0.75
+"""Speeds that measured records of the page have [1/min]; length of a simulated one, ten turns and more [s]."""
 RECIPES = {
     "whole": br.learn.Recipe("6205", speed_rpm=SPEED, **LOADS),
     "other": br.learn.Recipe(
@@ -114,7 +115,12 @@ def simulated(folder: Path, variant: str, per_class: int) -> br.learn.Simulated:
     """Return the records of a variant."""
     name, machines = VARIANTS[variant]
     return br.learn.dataset(
-        RECIPES[name], folder / name, per_class=per_class, machines=machines, progress=False
+        RECIPES[name],
+        folder / name,
+        per_class=per_class,
+        machines=machines,
+        window=WINDOW,
+        progress=False,
     )
 
 

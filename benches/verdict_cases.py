@@ -14,6 +14,7 @@ width            0.015 to 0.4 ball diameters, logarithmic: from seeded holes to 
 dents            a quarter of damaged races, 0.015 to 0.12 ball diameters wide, but no wider than the contact
 load             four of five 1 to 15 % of the static rating, as catalogues recommend; the others 0.3 to 1 %, as
                  of idling machines
+speed            600 to 3600 1/min, as motors of two to eight poles; the last hundred runs 300 to 600, as of drives
 slip             scatter of impacts as a recipe has it, or less; and a cage that lags behind the orders that
                  records are judged by, 0 to 4 %, mostly less than 1 %: makers' real dimensions, sliding balls
 surfaces         texture as a recipe has it, and waves of 5 to 200 nm
@@ -75,7 +76,9 @@ DENTED, DRILLED = 0.25, 0.25
 """Shares of dents, and of round holes where they are smaller than the contact."""
 WIDTHS, DENTS = (0.015, 0.4), (0.015, 0.12)
 LOADS, IDLE, IDLING = (0.01, 0.15), (0.003, 0.01), 0.2
-SPEEDS = (600.0, 3600.0)
+SPEEDS, SLOW = (600.0, 3600.0), (300.0, 600.0)
+SLOWER = 620
+"""Number of the first run of a slow machine."""
 EDGES = (0.0025, 0.25)
 """Radii of edges in ball diameters: from those of wires and sparks, 20 µm in a 6205, to worn ones."""
 CUT, ACROSS = 0.5, 0.6
@@ -105,7 +108,7 @@ def case(number: int) -> Case:
     parts = parts_of(number, rng)
     names = BEARINGS if "inner_race" not in parts else [name for name in BEARINGS if is_apart(name)]
     bearing = br.catalogue[str(rng.choice(names))]
-    rpm = log_uniform(rng, SPEEDS)
+    rpm = log_uniform(rng, SPEEDS if number < SLOWER else SLOW)
     load = log_uniform(rng, IDLE if rng.random() < IDLING else LOADS)
     scene = loaded(bearing, load, rpm, "free" if "ball" in parts else None, rng)
     scene = scene.replace(own_of(scene, bearing, parts, rng))

@@ -47,7 +47,7 @@ if TYPE_CHECKING:
 TABLE = Path(__file__).with_name("verdict_library.csv")
 JUDGED, SIZED = 3, 6
 FS = 51_200.0
-COUNT = 620
+COUNT = 720
 WEAKER, NEAR = 26.0, 0.2
 """Attenuation of the farthest sensor [dB]; share of records of a sensor on the pedestal itself."""
 QUIETER = 20.0
