@@ -26,6 +26,7 @@ import warnings
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+import matplotlib as mpl
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.ticker import NullFormatter
@@ -33,7 +34,7 @@ from matplotlib.ticker import NullFormatter
 import ballrace as br
 from ballrace.diagnosis.examined import examined
 from ballrace.diagnosis.kinematics import kinematics_of
-from verdict_cases import RACES
+from verdict_cases import RACES, WIDTHS
 from verdict_fit import judged, library
 from verdict_library import numbers_of
 from verdict_measured import SPEEDS, Record, records
@@ -47,7 +48,8 @@ if TYPE_CHECKING:
 
 ALIKE = 1.6
 """Factor within which widths, speeds and sampling rates are alike."""
-INSIDE = (0.2, 0.8)
+INSIDE, OUTER = (0.2, 0.8), (0.05, 0.95)
+"""Quantiles of records of the library between which measured ones are inside; the others that are drawn."""
 SHOWN = {"accel": "a·D²/v [m²/s]", "depth": "depth of modulation", "kurtosis": "kurtosis"}
 STANDARD_GRAVITY = 9.80665
 
@@ -141,6 +143,7 @@ def column(rows: NDArray[np.void], part: str, name: str) -> NDArray[np.float64]:
 def cover(table: Path, picture: Path) -> None:
     """Draw it, and print where the sets lie."""
     warnings.simplefilter("ignore")
+    mpl.rcParams |= {"svg.fonttype": "none", "svg.hashsalt": "ballrace"}
     rows, measured = judged(library(table)), list(shown())
     figure, axes = plt.subplots(2, 3, figsize=(12.0, 7.0), layout="constrained")
     for part, line in zip(RACES, axes, strict=True):
@@ -154,17 +157,26 @@ def cover(table: Path, picture: Path) -> None:
             for name in SHOWN:
                 print(f"{group}, {name}: {place(own, name, of_part)}")
     axes[0, -1].legend(frameon=False, fontsize=7)
-    figure.savefig(picture)
+    figure.savefig(picture, metadata={"Date": None})
 
 
 def _draw(ax: Axes, rows: NDArray[np.void], groups: Sequence[Shown], name: str) -> None:
-    """Draw a number of records of a part over the width of its damage."""
+    """Draw a number of measured records of a part over the width of its damage, on quantiles of the library."""
     part = groups[0].part
-    ax.loglog(rows["width"], column(rows, part, name), ".", color="0.75", ms=3)
+    widths = np.geomspace(*WIDTHS, 40)
+    near = [np.abs(np.log(rows["width"] / width)) < math.log(ALIKE) for width in widths]
+    for ends in (OUTER, INSIDE):
+        band = np.array([np.quantile(column(rows[chosen], part, name), ends) for chosen in near])
+        ax.fill_between(widths, *band.T, color="tab:gray", alpha=0.25, lw=0.0)
     for collection in dict.fromkeys(each.group.partition(",")[0] for each in groups):
         own = [g for g in groups if g.group.startswith(collection) and name in g.numbers]
         ax.loglog(
-            [g.width for g in own], [g.numbers[name] for g in own], "o", ms=5, label=collection
+            [g.width for g in own],
+            [g.numbers[name] for g in own],
+            "o",
+            ms=5,
+            alpha=0.8,
+            label=collection,
         )
     ax.xaxis.set_minor_formatter(NullFormatter())
     ax.set_xlabel("width [ball diameters]")
