@@ -334,7 +334,7 @@ as balls come into the load zone of this loose bearing (27 µm; at 10 µm half a
 No sound part is named; 209 healthy records are left undecided, five are called healthy. Damage that is
 not named is undecided: too weak, too small a part of the vibration, or as of unloaded balls that fall.
 z alone does not distinguish simulated records, since loaded healthy bearings have lines too; the
-likelihood ratio uses the record's unit. Four of these bearings were judged seven times, the others three times,
+likelihood ratio uses the record's unit. Four of these bearings were judged eight times, the others four times,
 and the library was made anew in between.
 
 The guide counts seeds 61 (6324, 6418, 61904, 61910, 16005, 16014, ER-16K, UER204), 60 from its fifth on
