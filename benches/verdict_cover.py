@@ -110,19 +110,31 @@ def _numbers(of: Record, bearing: br.Bearing) -> dict[str, float]:
 
 
 def place(own: Sequence[Shown], name: str, rows: NDArray[np.void]) -> str:
-    """Return where a median lies among rows of the library at like widths, and then speeds and rates."""
-    values = [each.numbers[name] for each in own if name in each.numbers]
-    if not values:
+    """Return where a median lies among rows of the library at like widths, and then speeds and rates.
+
+    And the median of where each record lies among those of its own width.
+    """
+    own = [each for each in own if name in each.numbers]
+    if not own:
         return "unit not known"
-    told, median = [f"{np.median(values):.3g}"], float(np.median(values))
+    median = float(np.median([each.numbers[name] for each in own]))
+    told = [f"{median:.3g}"]
     for also in ((), ("speed_rpm", "fs")):
-        rows = alike(rows, own, ("width", *also))
-        there = column(rows, own[0].part, name)
-        share = float((there < median).mean()) if there.size else math.nan
+        there = column(alike(rows, own, ("width", *also)), own[0].part, name)
+        share = below(there, median)
         low, high = np.quantile(there, INSIDE) if there.size else (math.nan, math.nan)
         where = "inside" if INSIDE[0] <= share <= INSIDE[1] else "OUTSIDE"
         told.append(f"{where} at {100.0 * share:.0f} % of {there.size} ({low:.3g} to {high:.3g})")
-    return "; ".join(told)
+    each_own = [
+        below(column(alike(rows, [each], ("width",)), each.part, name), each.numbers[name])
+        for each in own
+    ]
+    return f"{'; '.join(told)}; each at its own width {100.0 * np.median(each_own):.0f} %"
+
+
+def below(there: NDArray[np.float64], value: float) -> float:
+    """Return the share of numbers below a value; NaN of none."""
+    return float((there < value).mean()) if there.size else math.nan
 
 
 def alike(rows: NDArray[np.void], own: Sequence[Shown], names: Sequence[str]) -> NDArray[np.void]:
