@@ -41,8 +41,6 @@ if TYPE_CHECKING:
 
     Asked = dict[str, Any]
 
-COUNT = 600
-
 
 @dataclass(frozen=True, kw_only=True)
 class Judged:
@@ -200,7 +198,9 @@ def main() -> None:
     """Print what each condition is worth, and write it where asked."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--runs", type=Path, metavar="FOLDER", help="where runs are kept")
-    parser.add_argument("--count", type=int, default=COUNT, help="runs (default: %(default)s)")
+    parser.add_argument(
+        "--count", type=int, default=verdict_library.COUNT, help="runs (default: all)"
+    )
     parser.add_argument("-o", "--output", type=Path, metavar="TABLE", help="all counts, as CSV")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as temporary:
