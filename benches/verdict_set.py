@@ -89,7 +89,7 @@ bearings of the series 64 and rigs as quiet as published ones; 59 and the first 
 that. It was made anew again, on machines of 5 to 40 modes with unbalanced rotors, and paths of sets have 20 modes
 since then; 61 and the last four of 60 were judged once after that: seven records of a 6324 and a 6418 were
 accused, which raised the limits beyond the library's sizes. The first four of 62 were judged once after that. The
-library was given slow machines; the first four of 63, the first set that has some, were judged once after that.
+library was given slow machines; 63, the first set that has some, was judged once after that, in two halves.
 """
 
 SLOWER = 63
