@@ -14,7 +14,7 @@ width            0.015 to 0.4 ball diameters, logarithmic: from seeded holes to 
 dents            a quarter of damaged races, 0.015 to 0.12 ball diameters wide, but no wider than the contact
 load             four of five 1 to 15 % of the static rating, as catalogues recommend; the others 0.3 to 1 %, as
                  of idling machines
-speed            600 to 3600 1/min, as motors of two to eight poles; the last hundred runs 300 to 600, as of drives
+speed            600 to 3600 1/min, as motors of two to ten poles; the last hundred runs 300 to 600, as of drives
 slip             scatter of impacts as a recipe has it, or less; and a cage that lags behind the orders that
                  records are judged by, 0 to 4 %, mostly less than 1 %: makers' real dimensions, sliding balls
 surfaces         texture as a recipe has it, and waves of 5 to 200 nm

@@ -175,11 +175,13 @@ def cover(table: Path, picture: Path) -> None:
 def _draw(ax: Axes, rows: NDArray[np.void], groups: Sequence[Shown], name: str) -> None:
     """Draw a number of measured records of a part over the width of its damage, on quantiles of the library."""
     part = groups[0].part
-    widths = np.geomspace(*WIDTHS, 40)
-    near = [np.abs(np.log(rows["width"] / width)) < math.log(ALIKE) for width in widths]
-    for ends in (OUTER, INSIDE):
-        band = np.array([np.quantile(column(rows[chosen], part, name), ends) for chosen in near])
-        ax.fill_between(widths, *band.T, color="tab:gray", alpha=0.25, lw=0.0)
+    bands = {}
+    for width in np.geomspace(*WIDTHS, 40):
+        near = np.abs(np.log(rows["width"] / width)) < math.log(ALIKE)
+        if near.any():
+            bands[width] = np.quantile(column(rows[near], part, name), (*OUTER, *INSIDE))
+    for low, high in np.array(list(bands.values())).T.reshape(2, 2, -1):
+        ax.fill_between(list(bands), low, high, color="tab:gray", alpha=0.25, lw=0.0)
     for collection in dict.fromkeys(each.group.partition(",")[0] for each in groups):
         own = [g for g in groups if g.group.startswith(collection) and name in g.numbers]
         ax.loglog(

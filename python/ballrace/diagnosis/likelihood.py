@@ -4,7 +4,7 @@ A logistic regression separates simulated damage of a part from everything else,
 far its lines stand out, alone and compared with those of other parts, and by their depth of modulation, kurtosis
 and acceleration; more of any of these never makes damage less likely. Its odds over the odds of the library are
 a likelihood ratio (N. Brümmer, J. du Preez, Comput. Speech Lang. 20 (2006) 230), which does not depend on how
-many records of the library are damaged. It is limited to 1 : 100 and 100 : 1, since some 1800 records do not
+many records of the library are damaged. It is limited to 1 : 100 and 100 : 1, since some 2100 records do not
 support more.
 """
 
@@ -39,7 +39,7 @@ def at_any_size(acceleration: float, diameter: float, rate: float) -> float:
     h·k/m. Of bearings that differ in size alone, pressed alike, k goes with the pitch diameter D (Hertz) and m
     with its cube: waves of the same height, as grinding leaves them, cause accelerations as 1/D². Impacts of
     spalls that are the same part of a ball wide go as 1/D. Among the records of the library, with noise of motors
-    and at the ends of paths, it is D to the power −1.6 without damage, −1.4 with a damaged outer race. Over the
+    and at the ends of paths, it is D to the power −1.5 without damage, −0.8 with a damaged outer race. Over the
     speed v of the pitch circle, as both grow, it is a·D²/v.
 
     Parameters

@@ -37,7 +37,7 @@ UNLIKELY = 0.1
 """Likelihood ratio of sound to damaged below which weak lines of a race are damage (:meth:`Size.is_unlikely`).
 
 Of a record of each run of the library, each bearing judged by all others (``benches/verdict_gates.py``), it makes
-222 of 429 damaged ones named (193 by the limits of strength alone), of none a sound part more, and none of 186
+251 of 499 damaged ones named (219 by the limits of strength alone), of none a sound part more, and none of 216
 healthy ones damaged.
 """
 
@@ -54,9 +54,9 @@ has 0.35 and 0.30.
 _TINY = 1e-3
 """Strength a·D²/v below which deep, impulsive lines may be those of a healthy bearing [m²/s].
 
-Of 558 healthy records of the library 15 have deep, impulsive lines of more than 3e-4 whose z is above 4.4, one of
-more than 1e-3; four in ten of damaged races, most of them narrow or distant, have less. That of a 6205 of Case
-Western Reserve University with a hole of 0.18 mm is 1.2e-3 (inner race) and more.
+Of 648 healthy records of the library twelve have deep lines of more than 3e-4 whose z is above 4.4, one of more
+than 1e-3; four in ten of damaged races, most of them narrow or distant, have less. That of a 6205 of Case Western
+Reserve University with a hole of 0.18 mm is 1.2e-3 (inner race) and more.
 """
 
 _TINY_LOOSE: tuple[tuple[float, float], ...] = ((1.0, 1e-2), (4.0, 2e-3))
